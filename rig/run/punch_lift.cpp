@@ -84,23 +84,30 @@ void PunchLift::stop_gently() {
 // Until the stage stands. Returns why it was stopped, or "".
 std::string PunchLift::watch(double highest_N, double deadline_s) {
   Stage& stage = devices.stage();
-  // Readings may go on and make no force.
+  // Readings may go on and make no force, or repeat one while the punch still presses.
   SilenceWatch no_force(clock.speed() > 1.0 ? kNoForceEmulated_wall_s : kNoForce_wall_s);
   const double period_s = devices.load_cell().period_s() / clock.speed();
   std::int64_t n_before = readings.n_forces();
+  double last_N = readings.force_N();
   bool is_stopping = false;
   while (stage.is_moving() && clock.awake_s() < deadline_s) {
     pump();
     if (!is_watched()) continue;
     if (devices.needs_recovery()) return kStopped;  // at once, by a person
-    no_force.pass(clock.awake_s(), readings.n_forces() != n_before, true);
+    const double now_N = readings.force_N();
+    const bool is_new = readings.n_forces() != n_before &&
+                        (now_N != last_N || std::abs(now_N) <= options.pressing_N);
+    no_force.pass(clock.awake_s(), is_new, true);
     n_before = readings.n_forces();
+    last_N = now_N;
     // Only fresh readings show that the stage goes the right way.
     const bool is_blind =
         !devices.is_cell_usable() || devices.silence().has_value() || no_force.is_silent(period_s);
-    if (is_blind || std::abs(readings.force_N()) > highest_N) {
+    if (is_blind || std::abs(now_N) > highest_N) {
       devices.stop_hard();
-      if (is_blind) return "THE LOAD CELL FELL SILENT while the punch was lifted: lift it by hand";
+      if (is_blind) {
+        return "THE LOAD CELL SHOWS NO NEW FORCE while the punch is lifted: lift it by hand";
+      }
       return std::string("THE FORCE RISES while the punch is lifted: ") +
              (options.watches ? "check toward_specimen of the rig file, and " : "") +
              "lift it by hand";

@@ -142,8 +142,16 @@ TEST_CASE("a lift from a force above the limit ends when a person stops it, or w
     if (!is_stopped) rig.emulated.cause(Incident::kSilenceLoadCell);
   };
   CHECK_THROWS_WITH(moved_on(rig, jog(-1e-3)),
-                    Contains(is_stopped ? "the lift was stopped" : "FELL SILENT"));
+                    Contains(is_stopped ? "the lift was stopped" : "NO NEW FORCE"));
   CHECK(rig.emulated.outcome().final_position_m > -0.6e-3);
+}
+
+TEST_CASE("a lift from a force above the limit that is frozen ends at once", "[rig][pty]") {
+  EmulatedRigOptions options = pressing_above_limit();
+  options.fault = rig_fault_from_text("frozen");
+  RigFixture rig(options);
+  CHECK_THROWS_AS(moved_on(rig, jog(-1e-3)), RigError);
+  CHECK(rig.emulated.outcome().final_position_m > -0.2e-3);
 }
 
 TEST_CASE("a stage does not move with a load cell that does not measure", "[rig][pty]") {
