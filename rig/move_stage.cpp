@@ -33,6 +33,11 @@ void refuse(const RestReadings& seen, const RigConfig& rig, bool is_toward) {
   }
 }
 
+// Behind an error, or nothing.
+std::string behind(const std::string& text) {
+  return text.empty() ? "" : "; " + text;
+}
+
 // The next command finds an unlocked controller, so only this one can warn.
 std::string note_of(const Stage& stage) {
   if (!stage.is_unlocked_unhomed()) return "";
@@ -97,25 +102,26 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     moved.to_m = stage.position_m();
   } catch (const RigError& error) {
     const bool is_asked_for = dynamic_cast<const RunInterrupted*>(&error) != nullptr;
-    // A force above the limit at rest is what a lift ends.
+    // A force above the limit that presses at rest is what a lift ends.
     const bool is_relief = is_lift && !session.has_moved() && session.is_stage_connected() &&
+                           session.is_pressed() && (control.stop == nullptr || !*control.stop) &&
                            dynamic_cast<const LimitReached*>(&error) != nullptr;
     if (!is_relief && (!session.is_stage_connected() || !session.has_moved())) {
-      if (is_asked_for) throw RigError("the move was stopped before it began");
-      throw;
+      const std::string note = session.is_stage_connected() ? behind(note_of(stage)) : "";
+      if (is_asked_for) throw RigError("the move was stopped before it began" + note);
+      if (note.empty()) throw;
+      throw RigError(failure_text(error, "this move") + note);
     }
     const double stood_m = stage.position_m();
     const double back_m = is_relief       ? stood_m + order.toward_m
                           : order.is_home ? stood_m
                                           : std::min(moved.from_m, stood_m);
     const SafeEnd end = session.make_safe(back_m, order.speed_m_s);
-    const std::string note = note_of(stage);
-    throw StageStands(
-        (is_asked_for ? "the move was stopped" : failure_text(error, "this move")) +
-            (is_relief ? ". The stage was lifted to " : ". The stage was stopped at ") +
-            in_mm(stage.position_m()) + (end.trouble.empty() ? "" : "; " + end.trouble) +
-            (note.empty() ? "" : "; " + note),
-        stage.position_m());
+    throw StageStands((is_asked_for ? "the move was stopped" : failure_text(error, "this move")) +
+                          (is_relief && end.lifted_m > 0.0 ? ". The stage was lifted to "
+                                                           : ". The stage was stopped at ") +
+                          in_mm(stage.position_m()) + behind(end.trouble) + behind(note_of(stage)),
+                      stage.position_m());
   }
   return moved;
 }

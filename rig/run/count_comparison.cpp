@@ -12,6 +12,15 @@ std::string micrometres_of(double length_m) {
   return text_from_number(std::abs(length_m) * 1e6, 1) + " um";
 }
 
+// Everything else ends a run in any phase.
+bool is_of_homing(const RigError& error) {
+  return dynamic_cast<const LimitReached*>(&error) == nullptr &&
+         dynamic_cast<const RunInterrupted*>(&error) == nullptr &&
+         dynamic_cast<const PortHungUp*>(&error) == nullptr &&
+         dynamic_cast<const CellIsDead*>(&error) == nullptr &&
+         dynamic_cast<const CellIsSilent*>(&error) == nullptr;
+}
+
 }  // namespace
 
 std::string lost_steps_doubt(const CountCheck& found) {
@@ -37,11 +46,8 @@ std::string compare_count(RunSession& session, const RigConfig& rig, const RunCo
   session.begin_phase(kHomePhase, 0.0, "Homing the stage, which shows whether it has lost steps");
   try {
     outcome.count = stage.check_count([&] { session.pump(); });
-  } catch (const LimitReached&) {
-    throw;
-  } catch (const RunInterrupted&) {
-    throw;
   } catch (const RigError& error) {
+    if (!is_of_homing(error)) throw;
     session.stop_if_moving();
     outcome.doubts.push_back(
         "the stage could not be homed after the lift, so whether it has lost steps is not known: " +

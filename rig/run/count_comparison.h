@@ -10,8 +10,9 @@ namespace viscard {
 
 // After the lift of a finished run with home = true, and only if nothing else makes it doubtful:
 // homes the stage and compares its count. Lost steps, and a stage that could not be homed, are
-// doubts. Returns why the count was not compared, or "". Throws LimitReached and RunInterrupted;
-// the stage must be made safe then.
+// doubts. Returns why the count was not compared, or "". Throws what ends a run in any phase: a limit
+// of force, a person, a lost port, a load cell that is silent or measures nothing; the stage must be
+// made safe then.
 std::string compare_count(RunSession& session, const RigConfig& rig, const RunControl& control,
                           RunOutcome& outcome);
 

@@ -15,9 +15,12 @@ constexpr double kOldReadings_wall_s = 1.0;  // longest wait for a reading made 
 constexpr int kAttempts = 4;
 constexpr double kReopen_wall_s =
     5.0;  // longest wait for a port; USB needs 1 to 3 s to list it again
-constexpr double kBlindSpeed_m_s = 0.2e-3;  // of a lift from a position that is not known
-constexpr double kFallen = 0.9;             // of the force before the lift
+constexpr double kWatchedSpeed_m_s = 0.2e-3;  // of a lift that may go the wrong way
+constexpr double kFallen = 0.9;               // of the force before the lift
 constexpr int kFewestOfMean = 5;
+constexpr double kNoForce_wall_s = 0.25;  // while a watched lift moves
+constexpr double kNoForceEmulated_wall_s = 1.0;
+constexpr const char* kStopped = "the lift was stopped before its end";
 
 }  // namespace
 
@@ -28,7 +31,12 @@ SafeEnd PunchLift::carry_out() {
     try {
       if (attempt == 0) stop_gently();
       devices.end_gentle_stop();
-      if (attempt > 0 || devices.needs_recovery()) devices.recover(pump);
+      if (is_only_stopped()) {
+        // An unlocked controller would count on from a place without meaning.
+        if (devices.stage().is_moving()) devices.stop_hard();
+      } else if (attempt > 0 || devices.needs_recovery()) {
+        devices.recover(pump);
+      }
       return ended(lift(std::pow(0.5, attempt)));
     } catch (const PortHungUp& error) {
       return after_hang_up(error.what());
@@ -73,6 +81,44 @@ void PunchLift::stop_gently() {
   while (stage.is_moving() && !devices.needs_recovery() && clock.awake_s() < deadline_s) pump();
 }
 
+// Until the stage stands. Returns why it was stopped, or "".
+std::string PunchLift::watch(double highest_N, double deadline_s) {
+  Stage& stage = devices.stage();
+  // Readings may go on and make no force, or repeat one while the punch still presses.
+  SilenceWatch no_force(clock.speed() > 1.0 ? kNoForceEmulated_wall_s : kNoForce_wall_s);
+  const double period_s = devices.load_cell().period_s() / clock.speed();
+  std::int64_t n_before = readings.n_forces();
+  double last_N = readings.force_N();
+  bool is_stopping = false;
+  while (stage.is_moving() && clock.awake_s() < deadline_s) {
+    pump();
+    if (!is_watched()) continue;
+    if (devices.needs_recovery()) return kStopped;  // at once, by a person
+    const double now_N = readings.force_N();
+    const bool is_new = readings.n_forces() != n_before &&
+                        (now_N != last_N || std::abs(now_N) <= options.pressing_N);
+    no_force.pass(clock.awake_s(), is_new, true);
+    n_before = readings.n_forces();
+    last_N = now_N;
+    // Only fresh readings show that the stage goes the right way.
+    const bool is_blind =
+        !devices.is_cell_usable() || devices.silence().has_value() || no_force.is_silent(period_s);
+    if (is_blind || std::abs(now_N) > highest_N) {
+      devices.stop_hard();
+      if (is_blind) {
+        return "THE LOAD CELL SHOWS NO NEW FORCE while the punch is lifted: lift it by hand";
+      }
+      return std::string("THE FORCE RISES while the punch is lifted: ") +
+             (options.watches ? "check toward_specimen of the rig file, and " : "") +
+             "lift it by hand";
+    }
+    if (is_stopping || !is_stop_asked()) continue;
+    stage.stop_soft();
+    is_stopping = true;
+  }
+  return is_stopping ? kStopped : "";
+}
+
 // Moves away from the specimen by a share of the distance. Returns what is wrong afterwards, or "";
 // a force that does not fall is no reason for another attempt.
 std::string PunchLift::lift(double share) {
@@ -81,30 +127,22 @@ std::string PunchLift::lift(double share) {
   const double from_m = stage.position_m();
   const double shortest_m = from_m - share * std::min(kLargestLift_m, pressed_m);
   const double to_m =
-      devices.is_position_lost()
+      is_only_stopped() ? from_m
+      : devices.is_position_lost()
           ? shortest_m
           : std::min(from_m,
                      std::max(from_m - share * (from_m - options.retract_to_m), shortest_m));
   // A stage that stands within a step of where it shall go does not move.
   const bool has_way = (from_m - to_m) * stage.dynamics().steps_per_m > 1.0;
+  if (has_way && is_stop_asked()) return kStopped;
   if (has_way) {
-    const double speed_m_s = devices.is_position_lost()
-                                 ? std::min(options.speed_m_s, kBlindSpeed_m_s)
-                                 : options.speed_m_s;
+    const double speed_m_s =
+        is_watched() ? std::min(options.speed_m_s, kWatchedSpeed_m_s) : options.speed_m_s;
     stage.begin_move(to_m, speed_m_s, "retract");
     const double deadline_s = clock.awake_s() + kStandstill_wall_s + (from_m - to_m) / speed_m_s;
-    const double highest_N = before_N + options.pressing_N;
-    while (stage.is_moving() && clock.awake_s() < deadline_s) {
-      pump();
-      if (!devices.is_position_lost()) continue;
-      // Only fresh readings show that the stage goes the right way.
-      const bool is_blind = !devices.is_cell_usable() || devices.silence().has_value();
-      if (!is_blind && std::abs(readings.force_N()) <= highest_N) continue;
-      devices.stop_hard();
-      return is_blind ? "THE LOAD CELL FELL SILENT while the punch was lifted: lift it by hand"
-                      : "THE FORCE RISES while the punch is lifted: lift it by hand";
-    }
-    lifted_m = from_m - stage.position_m();
+    const std::string stopped = watch(before_N + options.pressing_N, deadline_s);
+    if (stopped.empty() || stopped == kStopped) lifted_m = from_m - stage.position_m();
+    if (!stopped.empty()) return stopped;
   }
   const bool was_pressing = before_N > options.pressing_N || !options.blind.empty();
   if (has_way && !(lifted_m > 0.0) && was_pressing) {

@@ -3,6 +3,8 @@
 #include "rig/run/force_readings.h"
 #include "rig/run/served_devices.h"
 
+#include <atomic>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -23,12 +25,16 @@ struct SafeEnd {
 // so far (its own limits) may go part of the way.
 struct PunchLift {
   struct Options {
-    double retract_to_m = 0.0;
+    double retract_to_m = 0.0;  // infinite: nothing to lift, so the stage is only stopped
     double speed_m_s = 0.0;
     double pressing_N = 0.0;             // a force above this means that the punch presses
     std::string blind;                   // why no reading shows the force; empty: they do
     double noise_N = 0.0;                // of one reading
     std::optional<double> zero_drift_N;  // of a free punch since the tare; nothing: no tare yet
+    // Nothing has shown yet that the stage lifts, so the lift is slow, and a force that rises or
+    // cannot be read stops it, as after a lost position.
+    bool watches = false;
+    const std::atomic<bool>* stop = nullptr;  // ends a watched lift; nullptr: nothing does
   };
   ServedDevices& devices;
   ForceReadings& readings;
@@ -44,6 +50,10 @@ struct PunchLift {
 
   SafeEnd after_hang_up(const std::string& what);
   void stop_gently();
+  bool is_only_stopped() const { return std::isinf(options.retract_to_m); }
+  bool is_watched() const { return options.watches || devices.is_position_lost(); }
+  bool is_stop_asked() const { return options.stop != nullptr && *options.stop; }
+  std::string watch(double highest_N, double deadline_s);
   std::string lift(double share);
   std::string trouble_with_force(double before_N, bool was_pressing);
   SafeEnd ended(const std::string& trouble) const { return {lifted_m, trouble, is_force_left}; }

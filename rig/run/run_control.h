@@ -71,6 +71,12 @@ class CellIsDead : public RigError {
   using RigError::RigError;
 };
 
+// The load cell sends no readings any more; a moving stage has been stopped.
+class CellIsSilent : public RigError {
+ public:
+  using RigError::RigError;
+};
+
 // The stage counts a move that the force does not show: its motor stands, or the cell is blind.
 class ForceDoesNotFollow : public RigError {
  public:

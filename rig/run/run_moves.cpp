@@ -104,8 +104,10 @@ bool RunSession::move(double to_m, double speed_m_s, const std::string& purpose,
 }
 
 bool RunSession::lift(double to_m, double speed_m_s, const std::string& purpose, double limit_N) {
-  // Forces count from the tare, and this was made while the punch may have pressed.
-  readings_.watch(-(std::max(0.0, readings_.tare_N()) + limit_N), limit_N);
+  // Forces count from the tare, and this was made while the punch may have pressed, or pulled: it
+  // then comes free by a force that rises to zero.
+  readings_.watch(-(std::max(0.0, readings_.tare_N()) + limit_N),
+                  limit_N + std::max(0.0, -readings_.tare_N()));
   move_once(to_m, speed_m_s, purpose, limit_N);
   readings_.stop_watching();
   return readings_.has_exceeded();

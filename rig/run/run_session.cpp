@@ -224,10 +224,10 @@ void RunSession::check_stream() {
                                        text_from_number(life_.usual_rate_Hz(), 1) +
                                        "/s of the tare)"
                                  : "";
-  throw RigError(std::string("the load cell fell silent ") +
-                 (is_moving ? "while the stage was moving; the stage was stopped"
-                            : "while the stage stood still") +
-                 slower + ". Check the amplifier and its cable, then start the run again");
+  throw CellIsSilent(std::string("the load cell fell silent ") +
+                     (is_moving ? "while the stage was moving; the stage was stopped"
+                                : "while the stage stood still") +
+                     slower + ". Check the amplifier and its cable, then start the run again");
 }
 
 ForceMean RunSession::mean_force(double asked_s) {
@@ -274,12 +274,14 @@ void RunSession::event(const std::string& name, const std::string& value, const 
 SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s,
                               std::optional<double> zero_drift_N) {
   is_guarded_ = false;
+  // A stop that has ended the run does not end its lift.
+  const bool can_stop = !has_moved_ && control_.stop != nullptr && !*control_.stop;
   PunchLift lift{devices_,
                  readings_,
                  clock_,
                  [this] { pump(); },
                  {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
-                  zero_drift_N}};
+                  zero_drift_N, !has_moved_, can_stop ? control_.stop : nullptr}};
   return lift.carry_out();
 }
 

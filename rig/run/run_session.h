@@ -78,8 +78,8 @@ class RunSession {
   bool move(double to_m, double speed_m_s, const std::string& purpose,
             std::optional<double> stop_above_N = std::nullopt);
   // A move away from the specimen by hand: true, after a gentle stop, if the force rose by more
-  // than limit_N, or pulls with more than that. A force that falls while the punch comes free does
-  // not stop it.
+  // than limit_N, or pulls with more than that. A force that goes to zero while the punch comes free
+  // does not stop it.
   bool lift(double to_m, double speed_m_s, const std::string& purpose, double limit_N);
   // How late the stage was in the latest of the moves since the last call (Stage::lag_s).
   double take_lag_s() { return std::exchange(lag_s_, 0.0); }
@@ -97,7 +97,9 @@ class RunSession {
 
   // Ends the guarding, stops the stage and lifts the punch as far as the devices still answer.
   // Never throws for a device's sake. zero_drift_N: within it (and noise) the force after the lift is
-  // the zero of the tare; nothing if there was no tare.
+  // the zero of the tare; nothing if there was no tare. A stage that has not moved before may go the
+  // wrong way: a force that rises or cannot be read ends its lift, and so does a stop that is asked
+  // for meanwhile.
   SafeEnd make_safe(double retract_to_m, double speed_m_s,
                     std::optional<double> zero_drift_N = std::nullopt);
   // At once, after an error that leaves nothing to lift; nothing if its port is gone.
@@ -110,6 +112,10 @@ class RunSession {
   bool is_position_lost() const { return devices_.is_position_lost(); }
   bool has_moved() const { return has_moved_; }
   double force_N() const { return readings_.force_N(); }
+  // The newest reading makes a force, and by the calibration, without a tare, it presses.
+  bool is_pressed() const {
+    return !is_doubtful_ && readings_.force_N() + readings_.tare_N() > 0.0;
+  }
   double sound_force_N(double noise_N) const { return readings_.sound_force_N(noise_N); }
   double peak_force_N() const { return readings_.peak_force_N(); }
   // Readings marked by an event "implausible".

@@ -219,7 +219,7 @@ ForceMean first_tare(TestRun& run, double duration_s) {
   try {
     return undisturbed_tare(run, duration_s);
   } catch (const LimitReached& error) {
-    if (!run.lifts_at_start || session.has_moved()) throw;
+    if (!run.lifts_at_start || session.has_moved() || !session.is_pressed()) throw;
     const double way_m = std::max(run.plan.retract_m, kProbe_m);
     const SafeEnd end = session.make_safe(run.start_m - way_m, run.plan.retract_speed_m_s);
     if (!end.trouble.empty() || !(end.lifted_m > 0.0)) throw;

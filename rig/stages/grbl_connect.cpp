@@ -3,6 +3,7 @@
 #include "models/maths/text_of_number.h"
 #include "rig/stages/grbl_stage.h"
 
+#include <cmath>
 #include <utility>
 
 namespace viscard {
@@ -138,6 +139,7 @@ void GrblStage::connect(const Pump& pump) {
 // After a critical alarm the controller accepts only a reset; stop_hard() has already sent one.
 void GrblStage::recover(const Pump& pump) {
   const bool has_reset = is_recovering_;
+  const double stood_m = reported_m_;
   is_recovering_ = true;
   polls_ = false;
   forget_questions();
@@ -155,9 +157,14 @@ void GrblStage::recover(const Pump& pump) {
                    "' does not answer a reset: IT MAY STILL PRESS. Lift the punch by hand");
   }
   wait_for([] { return false; }, pump, kSettle_wall_s);
-  was_in_alarm_ = true;
-  command("$X", pump);
   ask_position(pump);
+  // A reset at rest keeps state and count; a restart may be unlocked, at another count.
+  const bool is_kept = state_ == "Idle" && std::abs(reported_m_ - stood_m) <= resolution_m();
+  was_in_alarm_ = was_in_alarm_ || !is_kept;
+  if (state_ != "Idle") {
+    command("$X", pump);
+    ask_position(pump);
+  }
   exact_m_ = reported_m_;
   if (cut_short) hand_out(cut_short->tracker, cut_short->purpose, reported_m_);
   is_recovering_ = false;

@@ -103,12 +103,13 @@ void GrblStage::home(const Pump& pump) {
   was_in_alarm_ = true;  // until the cycle has ended well
   try {
     command(compares_count_ ? std::string("$H") + config_.axis : "$H", pump, kAxisHomed_wall_s);
-  } catch (const PortHungUp&) {
-    throw;
   } catch (const HomingFailed&) {
     throw;
   } catch (...) {
-    stop_hard();  // nothing else ends a homing cycle
+    try {
+      stop_hard();                 // nothing else ends a homing cycle
+    } catch (const PortHungUp&) {  // then the error before has named it
+    }
     throw;
   }
   ask_position(pump);

@@ -70,6 +70,18 @@ TEST_CASE("a lift ends when the force rises, or when it pulls", "[rig][pty]") {
   CHECK(moved.to_m > -0.5e-3);
 }
 
+TEST_CASE("a lift of a punch that is pulled goes on while the pull ends", "[rig][pty]") {
+  RigFixture rig(RigFixture::options());
+  rig.emulated.hang_weight(-0.3);
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* report = std::get_if<StageReport>(&record);
+    if (report != nullptr && report->position_m < -0.2e-3) rig.emulated.hang_weight(0.0);
+  };
+  const StageMoved moved = moved_on(rig, jog(-1e-3, 0.1));
+  CHECK_FALSE(moved.is_stopped_by_force);
+  CHECK(moved.to_m - moved.from_m == Approx(-1e-3).margin(1e-6));
+}
+
 TEST_CASE("a punch that presses above the limit of force is lifted, and not pressed further",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();
@@ -83,12 +95,71 @@ TEST_CASE("a punch that presses above the limit of force is lifted, and not pres
   CHECK(rig.emulated.outcome().final_position_m == Approx(-1e-3).margin(1e-6));
 }
 
-TEST_CASE("a stage does not move toward a specimen with a load cell that does not measure",
+// A punch that presses above the limit of force.
+EmulatedRigOptions pressing_above_limit() {
+  EmulatedRigOptions options = RigFixture::options();
+  options.truth.surface_position_m = -0.06e-3;
+  options.config.safety.soft_fraction = 0.1;
+  return options;
+}
+
+TEST_CASE("a lift from a force above the limit that goes toward the specimen is stopped",
           "[rig][pty]") {
+  RigFixture rig(pressing_above_limit());
+  StageConfig turned = rig.config.stage;
+  turned.toward_specimen = -turned.toward_specimen;
+  GrblStage stage(rig.stage_line, turned, rig.clock, rig.sink);
+  RunControl control;
+  control.clock = &rig.clock;
+  CHECK_THROWS_WITH(
+      move_stage(stage, rig.load_cell, rig.config, rig.sink, control, jog(-1e-3)),
+      Contains("THE FORCE RISES") && Contains("toward_specimen") && !Contains("lifted to"));
+  for (const double until_s = rig.clock.now_s() + 1.0; rig.clock.now_s() < until_s;) {
+    wait_readable({&rig.stage_line}, rig.clock, 0.002);
+    rig.stage_line.read_available();
+  }
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m < 0.05e-3);
+}
+
+TEST_CASE("a pull above the limit of force moves nothing", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.config.safety.soft_fraction = 0.1;
+  RigFixture rig(options);
+  rig.emulated.hang_weight(-0.2 * options.config.calibration.capacity_N);
+  CHECK_THROWS_WITH(moved_on(rig, jog(-1e-3)), Contains("above the limit of"));
+  CHECK(rig.emulated.outcome().final_position_m == 0.0);
+}
+
+TEST_CASE("a lift from a force above the limit ends when a person stops it, or without readings",
+          "[rig][pty]") {
+  const bool is_stopped = GENERATE(true, false);
+  RigFixture rig(pressing_above_limit());
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* report = std::get_if<StageReport>(&record);
+    if (report == nullptr || report->position_m > -0.1e-3) return;
+    if (is_stopped) rig.stop = true;
+    if (!is_stopped) rig.emulated.cause(Incident::kSilenceLoadCell);
+  };
+  CHECK_THROWS_WITH(moved_on(rig, jog(-1e-3)),
+                    Contains(is_stopped ? "the lift was stopped" : "NO NEW FORCE"));
+  CHECK(rig.emulated.outcome().final_position_m > -0.6e-3);
+}
+
+TEST_CASE("a lift from a force above the limit that is frozen ends at once", "[rig][pty]") {
+  EmulatedRigOptions options = pressing_above_limit();
+  options.fault = rig_fault_from_text("frozen");
+  RigFixture rig(options);
+  CHECK_THROWS_AS(moved_on(rig, jog(-1e-3)), RigError);
+  CHECK(rig.emulated.outcome().final_position_m > -0.2e-3);
+}
+
+TEST_CASE("a stage does not move with a load cell that does not measure", "[rig][pty]") {
+  const double way_m = GENERATE(0.1e-3, -0.1e-3);
   EmulatedRigOptions options = RigFixture::options();
   options.fault = rig_fault_from_text(GENERATE("frozen", "zeros", "open-wire"));
   RigFixture rig(options);
-  CHECK_THROWS_AS(moved_on(rig, jog(0.1e-3)), RigError);
+  CHECK_THROWS_AS(moved_on(rig, jog(way_m)), RigError);
   CHECK(rig.emulated.outcome().final_position_m == 0.0);
 }
 
@@ -115,6 +186,27 @@ TEST_CASE("a move that unlocks a stage which is not homed warns, because no late
   } else {
     CHECK_THAT(moved.note, Contains("unlocked without homing") && Contains("viscard rig home"));
   }
+}
+
+TEST_CASE("a refused move that has unlocked a stage which is not homed warns, too", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.is_homing_enabled = true;
+  RigFixture rig(options);
+  SECTION("by a force that presses already") {
+    rig.emulated.hang_weight(0.3);
+    CHECK_THROWS_WITH(
+        moved_on(rig, jog(0.1e-3)),
+        Contains("Take away") && Contains("; the stage was locked and has been unlocked"));
+  }
+  SECTION("by a person") {
+    rig.on_record = [&](const RunRecord& record) {
+      const auto* event = std::get_if<RunEvent>(&record);
+      if (event != nullptr && event->name == "phase") rig.stop = true;
+    };
+    CHECK_THROWS_WITH(moved_on(rig, jog(0.1e-3)),
+                      Contains("stopped before it began; the stage was locked"));
+  }
+  CHECK(rig.emulated.outcome().final_position_m == 0.0);
 }
 
 }  // namespace viscard

@@ -185,6 +185,59 @@ TEST_CASE(
   CHECK(rig.all<RunEvent>().back().name == status);
 }
 
+TEST_CASE("a homing that a person stops leaves the stage locked", "[rig][pty]") {
+  RigFixture rig(homing_rig());
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* raw = std::get_if<RawBytes>(&record);
+    if (raw != nullptr && raw->is_sent && raw->bytes == "$HZ\n") rig.stop = homings_sent(rig) == 2;
+  };
+  const RunOutcome outcome = rig.run(short_plan());
+  CHECK(outcome.status == "interrupted");
+  std::string last;
+  for (const RawBytes& raw : rig.all<RawBytes>()) {
+    if (raw.is_sent && raw.bytes.front() == '$') last = raw.bytes;
+  }
+  CHECK(last == "$HZ\n");
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+}
+
+TEST_CASE("a homing cycle stops when the cable of the load cell is pulled", "[rig][pty]") {
+  const int in_homing = GENERATE(1, 2);
+  RigFixture rig(homing_rig());
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* raw = std::get_if<RawBytes>(&record);
+    if (raw == nullptr || !raw->is_sent || raw->bytes != "$HZ\n") return;
+    if (homings_sent(rig) == in_homing) rig.emulated.cause(Incident::kPullLoadCellCable);
+  };
+  if (in_homing == 1) {
+    CHECK_THROWS_AS(rig.run(short_plan()), PortHungUp);
+  } else {
+    const RunOutcome outcome = rig.run(short_plan());
+    INFO(outcome.reason);
+    CHECK(outcome.status == "interrupted");
+    CHECK(outcome.code == "device-lost");
+    CHECK(outcome.phase == kHomePhase);
+    CHECK(outcome.doubts.empty());
+  }
+  for (const double until_s = rig.clock.now_s() + 1.0; rig.clock.now_s() < until_s;) {
+    wait_readable({&rig.stage_line}, rig.clock, 0.002);
+    rig.stage_line.read_available();
+  }
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(std::abs(rig.emulated.outcome().final_position_m - kHomeAt_m) > 0.1e-3);
+}
+
+TEST_CASE("a load cell that falls silent while the stage is homed after the lift ends the run",
+          "[rig][pty]") {
+  RigFixture rig(homing_rig());
+  when_phase(rig, kHomePhase, [&] { rig.emulated.cause(Incident::kSilenceLoadCell); });
+  const RunOutcome outcome = rig.run(short_plan());
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("fell silent") && !Contains("could not be homed"));
+  CHECK(outcome.doubts.empty());
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+}
+
 TEST_CASE("a series homes before its first run and after its last one only", "[rig][pty]") {
   RigFixture rig(homing_rig_that_loses_steps());
   const RunOutcome first = run_of_series(rig, std::nullopt, false);

@@ -172,6 +172,27 @@ TEST_CASE("a reset in motion stops at once, and the stage works again after reco
   CHECK(rig.emulated.outcome().final_position_m == Approx(here_m - 0.05e-3).margin(0.6e-6));
 }
 
+TEST_CASE("a reset of a homed stage at rest does not count as an unlocking", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.is_homing_enabled = true;
+  options.grbl.is_homed = true;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, rig.stage.position_m() - 0.1e-3, 0.5e-3);
+  const double stood_m = rig.stage.position_m();
+  rig.stage.stop_hard();
+  rig.stage.recover(rig.pump());
+  CHECK(n_lines_sent(rig, "$X") == 0);
+  CHECK_FALSE(rig.stage.is_unlocked_unhomed());
+  CHECK(rig.stage.position_m() == Approx(stood_m).margin(1e-6));
+  rig.stage.begin_move(stood_m + 0.1e-3, 0.1e-3, "test");
+  pump_for(rig, 0.1);
+  rig.stage.stop_hard();  // in motion it locks itself
+  rig.stage.recover(rig.pump());
+  CHECK(n_lines_sent(rig, "$X") == 1);
+  CHECK(rig.stage.is_unlocked_unhomed());
+}
+
 TEST_CASE("after a limit switch the controller is silent until it is reset", "[rig][pty]") {
   RigFixture rig(RigFixture::options());
   rig.stage.connect(rig.pump());
