@@ -192,13 +192,16 @@ void MarlinStage::converse(bool is_first, const Pump& pump) {
   command("M17", pump);     // motors that are switched on later may jump to another step
   command("M18 S0", pump);  // else they let go after two minutes, and the hold is lost
   read_settings(pump);
-  if (is_first && config_.home) stopped_by_error([&] { home(pump); });
+  was_moved_ = is_first && config_.home;
+  if (was_moved_) stopped_by_error([&] { home(pump); });
   command("M420 S0", pump);  // levelling would change the height on the way
   // M114 has two decimals, so G1 counts from where the stage stands, on a whole step.
   command(std::string("G92 ") + config_.axis + "0", pump);
   await_report(pump, 5.0, "Check the axis in the rig file");
   origin_count_ = count_;
-  if (is_first && !presses_nothing_) stopped_by_error([&] { require_true_reports(pump); });
+  if (!is_first || presses_nothing_) return;
+  was_moved_ = true;
+  stopped_by_error([&] { require_true_reports(pump); });
 }
 
 // A board that starts late begins the exchange again.
@@ -212,10 +215,9 @@ void MarlinStage::converse_again(bool is_first, const Pump& pump) {
       if (n_before == n_starts_) return;
     } catch (const PortHungUp&) {
       throw;
-    } catch (const DeviceRestarted&) {  // while it homed, which is not done twice
-      throw;
     } catch (const RigError&) {
-      if (n_before == n_starts_ || i >= kConversations) throw;
+      // Not after it was moved: that may have been stopped by a person, or by the force.
+      if (n_before == n_starts_ || i >= kConversations || (is_first && was_moved_)) throw;
       await_pause(pump);
     }
   }

@@ -135,7 +135,8 @@ class MarlinStage final : public PolledStage {
   long long origin_count_ = 0;   // steps at position 0 of G1
   double rest_latency_s_ = 0.0;  // longest time to an answer to kAsk at rest
   int n_starts_ = 0;
-  double heard_s_ = 0.0;  // when the last line came
+  bool was_moved_ = false;  // by connect()
+  double heard_s_ = 0.0;    // when the last line came
   std::string last_message_;
   bool is_recovering_ = true;  // starts and errors are expected, also until connected
 
