@@ -4,6 +4,7 @@
 #include "rig/lines/rig_error.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 namespace viscard {
@@ -147,12 +148,15 @@ void GaugeLoadCell::feed(const Chunk& chunk) {
   take_answer(answer, chunk.time_s);
 }
 
-// False for the late answer to a question for a reading, and for the echo of an adapter: an
-// instrument that sends these alone has not answered the command.
+// False for the late answer to a question for a reading, garbled or not, and for the echo of an
+// adapter: an instrument that sends these alone has not answered the command.
 bool GaugeLoadCell::may_answer_zero(const std::string& text) const {
   if (trimmed(text) == trimmed(protocol_.zero)) return false;
-  const auto late = protocol_.parse(text);
-  return !late || !late->error.empty();
+  std::string line(trimmed(text));
+  for (char& c : line) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const auto begins = [&](const std::string& begin) { return line.starts_with(begin); };
+  return std::any_of(protocol_.zeroed.begin(), protocol_.zeroed.end(), begins) ||
+         std::any_of(protocol_.zero_refused.begin(), protocol_.zero_refused.end(), begins);
 }
 
 void GaugeLoadCell::take_answer(const std::string& text, double time_s) {

@@ -278,6 +278,7 @@ void EmulatedMarlin::tick(double time_s) {
     ok(time_s);
   }
   if (is_homing_ && !motion_.is_moving(time_s) && time_s >= home_until_s_) {
+    if (habits_.restarts_in_homing) return reset(time_s);
     is_homing_ = false;
     origin_m_ = zero_m_ = motion_.position_m(time_s);
     ok(time_s);

@@ -23,6 +23,7 @@ struct MarlinHabits {
   bool waits_in_m114 = false;          // Marlin 1.1, or M114_LEGACY: answers at rest
   bool needs_home = false;             // moves are answered with ok and not made before G28
   double homing_s = 0.0;               // at least, with "busy" meanwhile
+  bool restarts_in_homing = false;     // at its end, without an ok
   int halt_number = 0;                 // kill() instead of this line: silent until a reset
   bool makes_short_moves = false;      // of fewer than 6 steps; else they join the next one
   double highest_m = std::numeric_limits<double>::infinity();  // a soft limit, on the bench

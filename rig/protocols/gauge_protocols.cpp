@@ -108,6 +108,7 @@ GaugeProtocol mark10_protocol(const std::string& unit) {
   protocol.name = "mark10";
   protocol.query = "?\r";
   protocol.zero = "Z\r";
+  protocol.zero_refused = {"*"};
   protocol.parse = [word](std::string_view line) { return parse_mark10_reading(line, word); };
   return protocol;
 }
@@ -218,6 +219,7 @@ GaugeProtocol mt_sics_protocol(const std::string& unit) {
   protocol.query = "SI\r\n";
   protocol.zero = "ZI\r\n";
   protocol.zeroed = {"ZI D", "ZI S"};
+  protocol.zero_refused = {"ZI", "ES", "ET", "EL"};
   return protocol;
 }
 
@@ -254,6 +256,7 @@ GaugeProtocol sartorius_protocol(const std::string& unit) {
   protocol.identity_query = "\x1bx1_\r\n";
   protocol.query = "\x1bP\r\n";
   protocol.zero = "\x1bV\r\n";
+  protocol.zero_refused = {"ERR", "APP.", "DIS.", "PRT."};
   return protocol;
 }
 

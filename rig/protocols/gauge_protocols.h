@@ -28,6 +28,9 @@ struct GaugeProtocol {
   std::string closing;               // sent at the end
   std::string zero;  // makes the force that acts its zero; empty: the driver has no such command
   std::vector<std::string> zeroed;  // how its answer then begins; empty: it is not answered
+  // How its answer begins if it is refused, in capitals. A late answer to `query` begins
+  // otherwise.
+  std::vector<std::string> zero_refused;
   // Length of answers without a terminator, bytes; 0: answers are lines.
   std::size_t fixed_length = 0;
   // Returns nothing for text that is no answer.

@@ -132,7 +132,7 @@ void AptStage::connect(const Pump& pump) {
   if (const std::uint32_t errors = bits_ & apt::kAnyError; errors != 0) {
     throw RigError("the stage reports " + apt_error_text(errors));
   }
-  if (config_.home) home(pump);
+  if (config_.home) stopped_by_error([&] { home(pump); });
   ask_position(pump);
   if ((bits_ & apt::kIsHomed) == 0) throw_no_reference();
   is_homed_ = true;

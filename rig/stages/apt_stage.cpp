@@ -173,7 +173,8 @@ void AptStage::follow_move(double asked_s, double received_s) {
   ActiveMove& active = *active_;
   if (active.stop_mode != 0) return follow_stop(asked_s);
   if (!active.tracker || active.is_due || asked_s < active.sent_s) return;
-  active.tracker->reported(asked_s, received_s, reported_m_);
+  active.tracker->reported(asked_s, received_s,
+                           end_of_way_m(active.planned, reported_m_, rests(), kSettled_m));
   watch_path(active.planned, 2.0 * kSettled_m, active.n_astray);
   if (!rests()) return active.rests_since_s.reset();
   const double way_m = std::abs(active.planned.to_m - active.planned.from_m);

@@ -10,8 +10,6 @@ namespace viscard {
 namespace {
 
 constexpr double kStandstill_wall_s = 10.0;
-// An end so near counts as reached; the reported position is then recorded as the end.
-constexpr double kNear_m = 2e-6;
 // A stage is outside of its path from here on; servos overshoot by less.
 constexpr double kAstray_m = 5e-6;
 

@@ -69,7 +69,9 @@ void AskedStage::take_position(const Sent& question, const std::string& answer, 
   take_report(time_s, toward_ * number_from_text(answer).value_or(0.0) * 1e-3,
               seen_.is_moving ? "MOVING" : "REST");
   if (active_ && active_->tracker && !active_->is_stopping) {
-    active_->tracker->reported(question.written_s, time_s, reported_m_);
+    active_->tracker->reported(
+        question.written_s, time_s,
+        end_of_way_m(active_->planned, reported_m_, !seen_.is_moving, kNear_m));
   }
 }
 

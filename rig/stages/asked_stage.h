@@ -98,6 +98,8 @@ class AskedStage : public PolledStage {
  private:
   static constexpr double kPollMoving_s = 0.05;  // between rounds, rig time
   static constexpr double kPollResting_s = 0.2;
+  // An end so near counts as reached; the reported position is then recorded as the end.
+  static constexpr double kNear_m = 2e-6;
   enum class Origin { kAsk, kMove, kRound, kDropped };
   struct Job {
     std::string words;

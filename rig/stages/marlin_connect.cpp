@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -14,9 +15,10 @@ constexpr double kChatter_wall_s = 0.5;  // a pause that ends what it says at it
 constexpr double kBooted_wall_s = 10.0;
 constexpr double kHomed_wall_s = 180.0;
 constexpr int kConversations = 4;
-constexpr double kCoarsest_m = 20e-6;  // of the shortest move
-constexpr double kSeen_s = 0.3;        // of the move that shows what reports are
-constexpr int kMostSeen = 4;           // such moves, each twice as long as the one before
+constexpr double kCoarsest_m = 20e-6;   // of the shortest move
+constexpr double kSeen_s = 0.3;         // of the move that shows what reports are
+constexpr int kMostSeen = 4;            // such moves, each twice as long as the one before
+constexpr double kMostSeen_m = 0.1e-3;  // none is longer
 
 }  // namespace
 
@@ -76,7 +78,7 @@ void MarlinStage::read_settings(const Pump& pump) {
 }
 
 // What the reports show of a slow move from rest: before half of its time has passed the stage is
-// not at its end. At the end of its travel it does not move.
+// not at its end. At the end of its travel it does not move. It stands when this returns.
 MarlinStage::Reports MarlinStage::reports_of_move(long long to, double speed_m_s,
                                                   const Pump& pump) {
   constexpr int kEarly = 4;
@@ -90,15 +92,28 @@ MarlinStage::Reports MarlinStage::reports_of_move(long long to, double speed_m_s
   const auto way_s = [&](long long end) {
     return static_cast<double>(std::llabs(end - from)) / (speed_m_s * steps_per_m());
   };
+  // Standing outside of a soft limit, it would be sent to that limit, perhaps into the specimen.
+  const StageMove path{clock_.now_s(), metres(from), metres(to), speed_m_s,
+                       dynamics().acceleration_m_s2};
+  std::size_t n_watched = n_reports_;
+  int n_astray = 0;
+  const auto watch = [&] {
+    if (n_reports_ == std::exchange(n_watched, n_reports_)) return;
+    watch_path(path, 2.0 / steps_per_m(), n_astray);
+  };
   const double begun_s = clock_.now_s();  // not before
   command(move_to(to, speed_m_s * 60e3), pump);
   while (early.size() < kEarly && clock_.now_s() < begun_s + 0.5 * way_s(to)) {
     const std::size_t n_before = n_reports_;
     command(kAsk, pump);
+    watch();
     if (n_reports_ > n_before) early.push_back({clock_.now_s(), count_});
   }
   const double over_s = begun_s + 1.5 * way_s(to) + kFirstBlock_s + 2.0 * rest_latency_s_;
-  while (clock_.now_s() < over_s) pump();
+  while (clock_.now_s() < over_s) {
+    pump();
+    watch();
+  }
   await_report(pump, 5.0, "Check its cable");
   const long long end = count_;
   if (way_s(end) < 0.5 * way_s(to)) return Reports::kNotMoved;
@@ -113,24 +128,27 @@ MarlinStage::Reports MarlinStage::reports_of_move(long long to, double speed_m_s
 }
 
 // Builds without M114_REALTIME report the end of what they were sent: the force would seem not to
-// follow, and the punch would be on its way when it is taken to stand. So the stage is moved by
-// some um and back before anything else: away from the specimen, unless its travel ends there.
+// follow, and the punch would be on its way when it is taken to stand. So the stage is moved away
+// from the specimen by up to 0.1 mm and back before anything else. It is never moved beyond its
+// start, because how far it would press is not known yet.
 void MarlinStage::require_true_reports(const Pump& pump) {
   const double speed_m_s = dynamics().min_speed_m_s;
-  const long long from = count_;
+  const long long from = count_, most = std::llround(kMostSeen_m * steps_per_m());
   last_message_.clear();
   double time_s = std::clamp(8.0 * rest_latency_s_, kSeen_s, 8.0 * kSeen_s);
   Reports reports = Reports::kLate;
   for (int i = 0; i < kMostSeen && reports == Reports::kLate; ++i, time_s *= 2.0) {
     const long long way =
-        std::max(2LL * kFewestSteps, std::llround(time_s * speed_m_s * steps_per_m()));
-    const long long away = from - (toward_ > 0.0 ? way : -way);
-    reports = reports_of_move(away, speed_m_s, pump);
-    if (reports == Reports::kNotMoved) {
-      reports = reports_of_move(2 * from - away, speed_m_s, pump);
-    }
-    if (reports == Reports::kNotMoved) throw_not_made(metres(away));
-    if (reports != Reports::kPlanned) reports_of_move(from, speed_m_s, pump);
+        std::clamp(std::llround(time_s * speed_m_s * steps_per_m()), 2LL * kFewestSteps, most);
+    reports = reports_of_move(from - (toward_ > 0.0 ? way : -way), speed_m_s, pump);
+    reports_of_move(from, speed_m_s, pump);
+    if (reports != Reports::kNotMoved) continue;
+    throw RigError("the stage does not move away from the specimen by " +
+                   micrometres(static_cast<double>(way) / steps_per_m(), 3) + " (" +
+                   words_of_board() +
+                   "). Home it if the board asks for that; if its travel ends where it stands, "
+                   "move it toward the specimen by hand or lower that end (M211), then start the "
+                   "run again");
   }
   if (reports == Reports::kTrue) return;
   throw RigError("the firmware (" + firmware_ +
@@ -138,6 +156,24 @@ void MarlinStage::require_true_reports(const Pump& pump) {
                  (reports == Reports::kPlanned ? "but where its moves will end"
                                                : "or too late (M114_LEGACY, Marlin 1.1)") +
                  ". Build it with M114_REALTIME (Configuration_adv.h of Marlin 2.0.6 or later)");
+}
+
+// Something may be in the way of a board that restarts meanwhile, so it is not homed again.
+void MarlinStage::home(const Pump& pump) {
+  const int n_before = n_starts_;
+  const std::string text = std::string("G28 ") + config_.axis;
+  awaited_ = text;
+  outbox_.push_back(text);
+  const auto is_over = [&] { return !awaited_ || n_starts_ != n_before; };
+  const bool is_answered = wait_for(is_over, pump, kHomed_wall_s);
+  if (n_starts_ != n_before) {
+    throw DeviceRestarted(
+        "the stage's controller restarted while it homed. Check its supply and what is in its way, "
+        "then start the run again");
+  }
+  if (is_answered) return;
+  in_flight_.reset();
+  throw RigError("the stage on '" + transport_.name() + "' did not answer '" + text + "'");
 }
 
 void MarlinStage::converse(bool is_first, const Pump& pump) {
@@ -156,15 +192,16 @@ void MarlinStage::converse(bool is_first, const Pump& pump) {
   command("M17", pump);     // motors that are switched on later may jump to another step
   command("M18 S0", pump);  // else they let go after two minutes, and the hold is lost
   read_settings(pump);
-  if (is_first && config_.home) {
-    command(std::string("G28 ") + config_.axis, pump, kHomed_wall_s);
-  }
+  was_moved_ = is_first && config_.home;
+  if (was_moved_) stopped_by_error([&] { home(pump); });
   command("M420 S0", pump);  // levelling would change the height on the way
   // M114 has two decimals, so G1 counts from where the stage stands, on a whole step.
   command(std::string("G92 ") + config_.axis + "0", pump);
   await_report(pump, 5.0, "Check the axis in the rig file");
   origin_count_ = count_;
-  if (is_first && !presses_nothing_) require_true_reports(pump);
+  if (!is_first || presses_nothing_) return;
+  was_moved_ = true;
+  stopped_by_error([&] { require_true_reports(pump); });
 }
 
 // A board that starts late begins the exchange again.
@@ -179,7 +216,8 @@ void MarlinStage::converse_again(bool is_first, const Pump& pump) {
     } catch (const PortHungUp&) {
       throw;
     } catch (const RigError&) {
-      if (n_before == n_starts_ || i >= kConversations) throw;
+      // Not after it was moved: that may have been stopped by a person, or by the force.
+      if (n_before == n_starts_ || i >= kConversations || (is_first && was_moved_)) throw;
       await_pause(pump);
     }
   }

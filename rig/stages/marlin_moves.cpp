@@ -91,11 +91,13 @@ void MarlinStage::follow_move(double asked_s, double received_s) {
   ActiveMove& active = *active_;
   if (active.is_stopping) return follow_stop(asked_s);
   if (!active.tracker) return;
-  active.tracker->reported(asked_s, received_s, reported_m_);
+  if (!presses_nothing_) active.tracker->reported(asked_s, received_s, reported_m_);
   watch_path(active.planned, 2.0 / steps_per_m(), active.n_astray);
   if (count_ != std::exchange(active.seen, count_)) active.progress_s = received_s;
   // The answer to the newest piece comes before its question.
   if (!active.ok_s || asked_s < *active.ok_s) return;
+  // Reports that were not proven may be those of the plan, so its time has to pass as well.
+  if (presses_nothing_ && asked_s < active.tracker->latest_end_s()) return;
   const bool is_at_target = active.sent == active.target && std::llabs(count_ - active.target) <= 1;
   is_at_target ? end_move() : rest_elsewhere(asked_s);
 }
@@ -123,10 +125,13 @@ void MarlinStage::rest_elsewhere(double asked_s) {
 
 void MarlinStage::throw_not_made(double target_m) {
   exact_m_.reset();
-  throw_elsewhere(
-      target_m,
-      last_message_.empty() ? "the board reports nothing" : "it reported '" + last_message_ + "'",
-      "a soft limit (M211), homing that is missing or a limit switch");
+  throw_elsewhere(target_m, words_of_board(),
+                  "a soft limit (M211), homing that is missing or a limit switch");
+}
+
+std::string MarlinStage::words_of_board() const {
+  return last_message_.empty() ? "the board reports nothing"
+                               : "it reported '" + last_message_ + "'";
 }
 
 void MarlinStage::end_move() {

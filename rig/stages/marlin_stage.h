@@ -92,6 +92,7 @@ class MarlinStage final : public PolledStage {
   void follow_stop(double asked_s);
   void rest_elsewhere(double asked_s);
   [[noreturn]] void throw_not_made(double target_m);
+  std::string words_of_board() const;  // in the last move
   void end_move();
   void stop();
   void write_stop();
@@ -102,6 +103,7 @@ class MarlinStage final : public PolledStage {
   void converse_again(bool is_first, const Pump& pump);
   void halt(const Pump& pump);
   void read_settings(const Pump& pump);
+  void home(const Pump& pump);
   void require_true_reports(const Pump& pump);
   Reports reports_of_move(long long to, double speed_m_s, const Pump& pump);
   std::string move_to(long long count, double feed_mm_min) const;
@@ -133,7 +135,8 @@ class MarlinStage final : public PolledStage {
   long long origin_count_ = 0;   // steps at position 0 of G1
   double rest_latency_s_ = 0.0;  // longest time to an answer to kAsk at rest
   int n_starts_ = 0;
-  double heard_s_ = 0.0;  // when the last line came
+  bool was_moved_ = false;  // by connect()
+  double heard_s_ = 0.0;    // when the last line came
   std::string last_message_;
   bool is_recovering_ = true;  // starts and errors are expected, also until connected
 

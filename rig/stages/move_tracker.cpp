@@ -68,4 +68,10 @@ double MoveTracker::latest_end_s() const {
   return (std::isfinite(latest_s_) ? latest_s_ : move_.start_time_s) + duration_s(move_);
 }
 
+double end_of_way_m(const StageMove& move, double reported_m, bool is_at_rest, double near_m) {
+  const double half_m = 0.5 * std::abs(move.to_m - move.from_m);  // it may not have begun
+  const bool is_there = is_at_rest && std::abs(reported_m - move.to_m) < std::min(near_m, half_m);
+  return is_there ? move.to_m : reported_m;
+}
+
 }  // namespace viscard

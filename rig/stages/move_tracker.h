@@ -43,4 +43,8 @@ class MoveTracker {
   double largest_lag_s_ = 0.0, second_lag_s_ = 0.0;
 };
 
+// The reported position for MoveTracker::reported(). A servo that rests within near_m of its target
+// has made its way, and so is at its end: else it would seem to be late as long as it rests there.
+double end_of_way_m(const StageMove& move, double reported_m, bool is_at_rest, double near_m);
+
 }  // namespace viscard

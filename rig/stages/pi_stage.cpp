@@ -162,7 +162,7 @@ void PiStage::set_up(const Pump& pump) {
   }
   read_dynamics(pump);
   switch_on(pump);
-  if (config_.home) home(pump);
+  if (config_.home) stopped_by_error([&] { home(pump); });
   if (number(of_axis("FRF?"), pump) != 1.0) throw_no_reference();
   is_zero_declared_ = ask_if_known(of_axis("RON?"), pump).value_or("1") == "0";
   ask(dialect_.error_question, pump);  // of questions that it does not know

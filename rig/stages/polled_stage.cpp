@@ -182,6 +182,19 @@ void PolledStage::watch_end(double now_s, const StageMove& move, double late_bef
       "the run again");
 }
 
+void PolledStage::stopped_by_error(const std::function<void()>& part) {
+  try {
+    part();
+  } catch (...) {
+    try {
+      stop_hard();
+    } catch (const RigError&) {
+      // The port is gone, and the first error says more.
+    }
+    throw;
+  }
+}
+
 void PolledStage::throw_elsewhere(double target_m, const std::string& state,
                                   const std::string& look_for) const {
   throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +

@@ -71,6 +71,9 @@ class PolledStage : public Stage {
   // slower than their settings say and are waited for.
   void watch_end(double now_s, const StageMove& move, double late_before_s,
                  std::optional<double> progress_s = {}) const;
+  // Stops the stage at once if this part of connect() ends by an exception, such as a force above
+  // its limit: is_moving() is false in it, so the caller stops nothing.
+  void stopped_by_error(const std::function<void()>& part);
   // The stage rests elsewhere than at the end of its move. state: in the controller's words.
   [[noreturn]] void throw_elsewhere(double target_m, const std::string& state,
                                     const std::string& look_for) const;

@@ -155,7 +155,7 @@ void SmcStage::set_up(const Pump& pump) {
   const SmcState now = state(pump);
   if (!is_smc_referenced(now)) {
     if (!config_.home) throw_no_reference();
-    home(pump);
+    stopped_by_error([&] { home(pump); });
   }
   switch_on(pump);
   read_dynamics(pump);

@@ -72,8 +72,10 @@ void ZaberStage::connect(const Pump& pump) {
   read_settings(pump);
   if (is_zaber_fault(flag_)) throw RigError("the stage reports " + zaber_flag_text(flag_));
   if (config_.home) {
-    ask("home", pump);
-    wait_for_rest(pump, kHome_wall_s);
+    stopped_by_error([&] {
+      ask("home", pump);
+      wait_for_rest(pump, kHome_wall_s);
+    });
   }
   if (lacks_reference()) throw_no_reference();
   ask_position(pump);

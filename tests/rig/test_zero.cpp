@@ -114,11 +114,14 @@ TEST_CASE("a force that is no rest, a refusal, and a cell without its own zero a
 TEST_CASE("a late reading, or the echo of an adapter, is no answer to the command for zero",
           "[rig][pty]") {
   const char* kBalance = "S D      1.234 g\r\n";
-  CHECK(refusal_of("mark10", {"Z\r\n", "1.23 N\r\n"}) == "");  // it sends no answer
-  CHECK(refusal_of("sartorius", {"+    1.234 g  \r\n", "+    1.235 g  \r\n"}) == "");
-  CHECK(refusal_of("mt-sics", {"ZI\r\n", kBalance, "ZI D\r\n"}) == "");
+  CHECK(refusal_of("mark10", {"Z\r\n", "1.23 N\r\n", "1.2?3 N\r\n"}) == "");  // it sends no answer
+  CHECK(refusal_of("sartorius", {"+    1.234 g  \r\n", "+  ? 1.235 g  \r\n", "--\r\n"}) == "");
+  CHECK(refusal_of("mt-sics", {"ZI\r\n", kBalance, "S I\r\n", "S -\r\n", "S S Error 10b\r\n",
+                               "S D   1.2?4 g\r\n", "ZI D\r\n"}) == "");
   CHECK_THAT(refusal_of("mt-sics", {kBalance}), Contains("it did not answer"));
   CHECK_THAT(refusal_of("mt-sics", {kBalance, "ZI I\r\n"}), Contains("it answered 'ZI I'"));
+  CHECK_THAT(refusal_of("mt-sics", {"S I\r\n", "ES\r\n"}), Contains("it answered 'ES'"));
+  CHECK_THAT(refusal_of("sartorius", {"Err 54\r\n"}), Contains("it answered 'Err 54'"));
   CHECK_THAT(refusal_of("mark10", {"1.23 N\r\n", "*10\r\n"}), Contains("it answered '*10'"));
 }
 

@@ -1,4 +1,5 @@
 #include "rig/emulator/pty_port.h"
+#include "rig/lines/serial_line.h"
 #include "rig/stages/marlin_stage.h"
 #include "tests/rig/stages/stage_rig.h"
 
@@ -294,12 +295,12 @@ TEST_CASE("a Marlin board that reports its plan is refused before it presses", "
 
 TEST_CASE("what a Marlin board reports is found out by a short move away and back", "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
-  double farthest_m = 0.0;
+  double farthest_m = 20e-6;
   bool is_check = false;
   SECTION("away") {}
-  SECTION("toward the specimen at the end of the travel") {
-    options.marlin.lowest_m = 0.0;
-    farthest_m = 20e-6;
+  SECTION("by no more than 0.1 mm") {
+    options.marlin.answer_delay_s = 0.25;
+    farthest_m = 0.1e-3;
   }
   SECTION("not by a check, which moves nothing") {
     is_check = true;
@@ -309,11 +310,55 @@ TEST_CASE("what a Marlin board reports is found out by a short move away and bac
   rig.devices.stage->connect(rig.pump());
   CHECK(sent_lines(rig, "G1 ").empty() == is_check);
   for (const StageReport& report : rig.all<StageReport>()) {
-    CHECK(report.position_m >= -20e-6);
-    CHECK(report.position_m <= farthest_m + 1e-9);
+    CHECK(report.position_m >= -farthest_m - 1e-9);
+    CHECK(report.position_m <= 1e-9);
   }
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-9));
   CHECK(rig.move(0.2e-3, 0.5e-3));
+}
+
+TEST_CASE("a Marlin stage that cannot move away from the specimen does not move toward it",
+          "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.config.stage.toward_specimen = GENERATE(-1, 1);
+  options.marlin.has_realtime_reports = GENERATE(true, false);
+  options.marlin.lowest_m = 0.0;
+  SECTION("at the end of its travel") {}
+  SECTION("near it") {
+    options.marlin.lowest_m = -2e-6;
+  }
+  DeviceFixture rig(options);
+  CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()),
+                    Contains("does not move away from the specimen") && Contains("M211"));
+  rig.pump_for(1.0);
+  for (const StageReport& report : rig.all<StageReport>()) CHECK(report.position_m <= 1e-9);
+  CHECK(rig.emulated.outcome().final_position_m <= 1e-9);
+}
+
+TEST_CASE("a Marlin stage outside of its soft limits is stopped on its way to them", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.marlin.has_realtime_reports = GENERATE(true, false);
+  options.marlin.lowest_m = 0.5e-3;
+  DeviceFixture rig(options);
+  CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()), Contains("outside of its path"));
+  for (int i = 0; i < 20; ++i) rig.clock.pass(0.1);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m < 30e-6);
+}
+
+TEST_CASE("an interrupted proof of what a Marlin board reports leaves its stage at rest",
+          "[rig][pty]") {
+  DeviceFixture rig(marlin_rig());
+  const Pump pump = [&] {
+    rig.pump()();
+    if (rig.emulated.outcome().is_moving) throw RunInterrupted("interrupted");
+  };
+  CHECK_THROWS_AS(rig.devices.stage->connect(pump), RunInterrupted);
+  for (int i = 0; i < 5; ++i) rig.clock.pass(0.1);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m <= 1e-9);
+  CHECK(rig.emulated.outcome().final_position_m > -10e-6);
+  CHECK(sent_lines(rig, "G1 ").size() == 1);
 }
 
 TEST_CASE("a Marlin board that reports its plan lifts the punch", "[rig][pty]") {
@@ -323,7 +368,7 @@ TEST_CASE("a Marlin board that reports its plan lifts the punch", "[rig][pty]") 
   rig.devices.stage->plan_lift_only();
   rig.devices.stage->connect(rig.pump());
   REQUIRE(rig.move(-0.2e-3, 0.5e-3));
-  rig.pump_for(1.0);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
   CHECK(rig.emulated.outcome().final_position_m == Approx(-0.2e-3).margin(1e-9));
 }
 
@@ -354,6 +399,18 @@ TEST_CASE("a Marlin stage that makes no move before homing says what the board s
     rig.devices.stage->connect(rig.pump());
     CHECK(rig.move(0.2e-3, 1e-3));
   }
+}
+
+TEST_CASE("a Marlin board that restarts while it homes is not homed again", "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.config.stage.home = true;
+  options.marlin.homing_s = 2.0;
+  options.marlin.restarts_in_homing = true;
+  DeviceFixture rig(options);
+  const double begun_s = rig.clock.now_s();
+  CHECK_THROWS_WITH(rig.devices.stage->connect(rig.pump()), Contains("restarted while it homed"));
+  CHECK(rig.clock.now_s() < begun_s + 30.0);
+  CHECK(sent_lines(rig, "G28").size() == 1);
 }
 
 TEST_CASE("a Marlin board that halts raises an alarm and asks for a person", "[rig][pty]") {

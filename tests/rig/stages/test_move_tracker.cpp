@@ -38,6 +38,16 @@ TEST_CASE("the reports after a standstill give its length", "[rig]") {
   CHECK((tracker.lag_s() > 0.0) == (stood_s > 0.0));
 }
 
+TEST_CASE("a servo that rests short of its target is at its end, one that has not begun is not",
+          "[rig]") {
+  const StageMove move{0.0, 0.0, 0.26e-3, 0.25e-3, 0.2};
+  CHECK(end_of_way_m(move, 0.2585e-3, true, 2e-6) == move.to_m);
+  CHECK(end_of_way_m(move, 0.2585e-3, false, 2e-6) == 0.2585e-3);
+  CHECK(end_of_way_m(move, 0.25e-3, true, 2e-6) == 0.25e-3);
+  const StageMove short_one{0.0, 0.0, 1e-6, 0.25e-3, 0.2};
+  CHECK(end_of_way_m(short_one, 0.0, true, 2e-6) == 0.0);
+}
+
 TEST_CASE("one late report is no lag", "[rig]") {
   const StageMove move{0.0, 0.0, 1e-3, 0.5e-3, 0.2};
   MoveTracker tracker(move, 0.8e-6);

@@ -154,6 +154,17 @@ TEST_CASE("a PI stage that never reports to be on target ends where it rests", "
   CHECK(rig.all<CommandedMove>().back().move.to_m == Approx(0.5e-3 + 4.0 / 3200e3).margin(1e-9));
 }
 
+TEST_CASE("a PI stage that rests a little short of its target is not late", "[rig][pty]") {
+  EmulatedRigOptions options = pi_rig();
+  options.pi = {.comes_on_target = false, .counts_beside_target = -4};
+  DeviceFixture rig(options);
+  rig.devices.stage->connect(rig.pump());
+  REQUIRE(rig.move(0.5e-3, 1e-3));
+  CHECK(rig.devices.stage->position_m() == Approx(0.5e-3 - 4.0 / 3200e3).margin(1e-9));
+  CHECK(rig.devices.stage->lag_s() == 0.0);
+  for (const RunEvent& event : rig.all<RunEvent>()) CHECK(event.name != "move_doubtful");
+}
+
 TEST_CASE("a PI stage that rests far from its target is an error", "[rig][pty]") {
   EmulatedRigOptions options = pi_rig();
   options.pi.counts_beside_target = -100;

@@ -1,5 +1,7 @@
 // What every stage driver does alike: the same test gives the same force, its record agrees with
-// the motion, and a stop leaves the stage where it says.
+// the motion, a stop leaves the stage where it says, and an error ends its homing.
+#include "rig/lines/serial_line.h"
+#include "rig/run/run_control.h"
 #include "tests/rig/stages/stage_rig.h"
 
 #include <algorithm>
@@ -81,6 +83,37 @@ TEST_CASE("a stage that is stopped at any moment of a move stands where it says"
     CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(2e-6));
     CHECK(rig.emulated.outcome().final_position_m == Approx(stage.position_m()).margin(0.6e-6));
   }
+}
+
+TEST_CASE("a homing that Ctrl-C or a force limit interrupts is stopped at once", "[rig][pty]") {
+  const std::string driver = GENERATE("zaber", "apt", "marlin", "pi-gcs2", "smc100");
+  CAPTURE(driver);
+  EmulatedRigOptions options = near_stage_rig(driver);
+  lose_power(options);  // when the port is opened again: it has to be homed then
+  EmulatedRig emulated(options);
+  StageConfig config = emulated.config().stage;
+  const RigClock clock = emulated.clock();
+  for (const bool is_second : {false, true}) {
+    wait_readable({}, clock, 0.5);  // so that the emulator sees the port closed
+    config.home = is_second;
+    SerialLine line(config.port, 115200, clock);
+    const auto stage = make_stage(line, config, clock, [](const RunRecord&) {});
+    const Pump pump = [&] {
+      wait_readable({&line}, clock, 0.002);
+      stage->service();
+      if (is_second && emulated.outcome().is_moving) throw RunInterrupted("interrupted");
+    };
+    if (is_second) {
+      CHECK_THROWS_AS(stage->connect(pump), RunInterrupted);
+    } else {
+      stage->connect(pump);
+      stage->begin_move(-2e-3, 1e-3, "lift");
+      while (stage->is_moving()) pump();
+    }
+    for (int i = 0; i < 10; ++i) clock.pass(0.1);
+  }
+  CHECK_FALSE(emulated.outcome().is_moving);
+  CHECK(emulated.outcome().final_position_m < -1e-3);
 }
 
 }  // namespace viscard
