@@ -130,7 +130,8 @@ MarlinStage::Reports MarlinStage::reports_of_move(long long to, double speed_m_s
 // Builds without M114_REALTIME report the end of what they were sent: the force would seem not to
 // follow, and the punch would be on its way when it is taken to stand. So the stage is moved away
 // from the specimen by up to 0.1 mm and back before anything else. It is never moved beyond its
-// start, because how far it would press is not known yet.
+// start, because how far it would press is not known yet, unless it has just been homed: it may then
+// stand at the end of its travel, and the force is watched.
 void MarlinStage::require_true_reports(const Pump& pump) {
   const double speed_m_s = dynamics().min_speed_m_s;
   const long long from = count_, most = std::llround(kMostSeen_m * steps_per_m());
@@ -140,8 +141,13 @@ void MarlinStage::require_true_reports(const Pump& pump) {
   for (int i = 0; i < kMostSeen && reports == Reports::kLate; ++i, time_s *= 2.0) {
     const long long way =
         std::clamp(std::llround(time_s * speed_m_s * steps_per_m()), 2LL * kFewestSteps, most);
-    reports = reports_of_move(from - (toward_ > 0.0 ? way : -way), speed_m_s, pump);
+    const long long forth = toward_ > 0.0 ? way : -way;
+    reports = reports_of_move(from - forth, speed_m_s, pump);
     reports_of_move(from, speed_m_s, pump);
+    if (reports == Reports::kNotMoved && config_.home) {
+      reports = reports_of_move(from + forth, speed_m_s, pump);
+      reports_of_move(from, speed_m_s, pump);
+    }
     if (reports != Reports::kNotMoved) continue;
     throw RigError("the stage does not move away from the specimen by " +
                    micrometres(static_cast<double>(way) / steps_per_m(), 3) + " (" +

@@ -401,6 +401,19 @@ TEST_CASE("a Marlin stage that makes no move before homing says what the board s
   }
 }
 
+TEST_CASE("a Marlin stage that homing leaves at the end of its travel is proven from there",
+          "[rig][pty]") {
+  EmulatedRigOptions options = marlin_rig();
+  options.config.stage.home = true;
+  options.marlin.homing_s = 2.0;
+  options.marlin.lowest_m = 0.0;
+  DeviceFixture rig(options);
+  rig.devices.stage->connect(rig.pump());
+  for (const StageReport& report : rig.all<StageReport>()) CHECK(report.position_m <= 0.1e-3);
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-9));
+  CHECK(rig.move(0.2e-3, 1e-3));
+}
+
 TEST_CASE("a Marlin board that restarts while it homes is not homed again", "[rig][pty]") {
   EmulatedRigOptions options = marlin_rig();
   options.config.stage.home = true;
