@@ -20,7 +20,7 @@ constexpr double kFallen = 0.9;               // of the force before the lift
 constexpr int kFewestOfMean = 5;
 constexpr double kNoForce_wall_s = 0.25;  // while a watched lift moves
 constexpr double kNoForceEmulated_wall_s = 1.0;
-constexpr const char* kStopped = "the lift was stopped before its end";
+constexpr const char* kStoppedEarly = "the lift was stopped before its end";
 
 }  // namespace
 
@@ -93,7 +93,7 @@ std::string PunchLift::watch(double highest_N, double deadline_s) {
   while (stage.is_moving() && clock.awake_s() < deadline_s) {
     pump();
     if (!is_watched()) continue;
-    if (devices.needs_recovery()) return kStopped;  // at once, by a person
+    if (devices.needs_recovery()) return kStoppedEarly;  // at once, by a person
     const double now_N = readings.force_N();
     const bool is_new = readings.n_forces() != n_before &&
                         (now_N != last_N || std::abs(now_N) <= options.pressing_N);
@@ -116,7 +116,7 @@ std::string PunchLift::watch(double highest_N, double deadline_s) {
     stage.stop_soft();
     is_stopping = true;
   }
-  return is_stopping ? kStopped : "";
+  return is_stopping ? kStoppedEarly : "";
 }
 
 // Moves away from the specimen by a share of the distance. Returns what is wrong afterwards, or "";
@@ -134,14 +134,14 @@ std::string PunchLift::lift(double share) {
                      std::max(from_m - share * (from_m - options.retract_to_m), shortest_m));
   // A stage that stands within a step of where it shall go does not move.
   const bool has_way = (from_m - to_m) * stage.dynamics().steps_per_m > 1.0;
-  if (has_way && is_stop_asked()) return kStopped;
+  if (has_way && is_stop_asked()) return kStoppedEarly;
   if (has_way) {
     const double speed_m_s =
         is_watched() ? std::min(options.speed_m_s, kWatchedSpeed_m_s) : options.speed_m_s;
     stage.begin_move(to_m, speed_m_s, "retract");
     const double deadline_s = clock.awake_s() + kStandstill_wall_s + (from_m - to_m) / speed_m_s;
     const std::string stopped = watch(before_N + options.pressing_N, deadline_s);
-    if (stopped.empty() || stopped == kStopped) lifted_m = from_m - stage.position_m();
+    if (stopped.empty() || stopped == kStoppedEarly) lifted_m = from_m - stage.position_m();
     if (!stopped.empty()) return stopped;
   }
   const bool was_pressing = before_N > options.pressing_N || !options.blind.empty();
