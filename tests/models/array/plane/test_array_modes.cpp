@@ -155,3 +155,26 @@ TEST_CASE("shapes of a cluster share the row between the pillars", "[array]") {
   }
   for (int i = 0; i < 5; ++i) CHECK(sum[i] == Approx(1.0).margin(1e-3));  // other modes take part
 }
+
+TEST_CASE("shapes that a load on a pillar excites are symmetric or antisymmetric about its axis",
+          "[array]") {
+  // Motions of the base have both kinds, so that rounding errors of the other kind would grow.
+  const int load_port = GENERATE(kPressurePort, kShearPort);
+  const ArrayModel model({.count = 1}, {}, seed_media(),
+                         {.degree = 7, .layers = 3, .shaft_elements = 4},
+                         {.waves = 48, .load_port = load_port});
+  const Eigen::MatrixXd& motion = model.pillar().mode_on_outline;
+  const Eigen::Index places = motion.rows() / 2;
+  for (Eigen::Index shape = 0; shape < motion.cols(); ++shape) {
+    double symmetric = 0.0, antisymmetric = 0.0;
+    for (Eigen::Index left = 0; left < places; ++left) {
+      const Eigen::Index right = places - 1 - left;
+      const Eigen::Vector2d own = motion.block<2, 1>(2 * left, shape);
+      const Eigen::Vector2d mirrored(-motion(2 * right, shape), motion(2 * right + 1, shape));
+      symmetric += (own + mirrored).squaredNorm();
+      antisymmetric += (own - mirrored).squaredNorm();
+    }
+    CAPTURE(load_port, shape);
+    CHECK(std::min(symmetric, antisymmetric) < 1e-12 * (symmetric + antisymmetric));
+  }
+}
