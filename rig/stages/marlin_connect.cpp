@@ -18,7 +18,7 @@ constexpr int kConversations = 4;
 constexpr double kCoarsest_m = 20e-6;   // of the shortest move
 constexpr double kSeen_s = 0.3;         // of the move that shows what reports are
 constexpr int kMostSeen = 4;            // such moves, each twice as long as the one before
-constexpr double kMostSeen_m = 0.1e-3;  // none is longer
+constexpr double kMostSeen_m = 0.3e-3;  // none is longer
 
 }  // namespace
 
@@ -129,7 +129,7 @@ MarlinStage::Reports MarlinStage::reports_of_move(long long to, double speed_m_s
 
 // Builds without M114_REALTIME report the end of what they were sent: the force would seem not to
 // follow, and the punch would be on its way when it is taken to stand. So the stage is moved away
-// from the specimen by up to 0.1 mm and back before anything else. It is never moved beyond its
+// from the specimen by up to 0.3 mm and back before anything else. It is never moved beyond its
 // start, because how far it would press is not known yet, unless it has just been homed: it may then
 // stand at the end of its travel, and the force is watched.
 void MarlinStage::require_true_reports(const Pump& pump) {
@@ -145,7 +145,8 @@ void MarlinStage::require_true_reports(const Pump& pump) {
     reports = reports_of_move(from - forth, speed_m_s, pump);
     reports_of_move(from, speed_m_s, pump);
     if (reports == Reports::kNotMoved && config_.home) {
-      reports = reports_of_move(from + forth, speed_m_s, pump);
+      const long long little = std::clamp(forth, -most / 3, most / 3);
+      reports = reports_of_move(from + little, speed_m_s, pump);
       reports_of_move(from, speed_m_s, pump);
     }
     if (reports != Reports::kNotMoved) continue;
