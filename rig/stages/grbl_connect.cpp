@@ -181,9 +181,8 @@ std::string GrblStage::trouble_with_zero() const {
            "and home it with: viscard rig home";
   }
   if (was_in_alarm_) {
-    return "it has not been homed since it was switched on, or since an alarm. Home it with: "
-           "viscard "
-           "rig home";
+    return "it has not been homed since it was switched on, or since an alarm. "
+           "Home it with: viscard rig home";
   }
   return "";
 }
