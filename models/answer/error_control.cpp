@@ -178,6 +178,7 @@ class ChangeTracker {
       if (comparable && !(error <= answer.largest_relative_error * numbers[i].size)) {
         answer.largest_relative_error = error / numbers[i].size;
         worst_ = numbers[i].name;
+        worst_left_out_ = numbers[i].left_out / numbers[i].size;
       }
     }
     if (!comparable) change.clear();
@@ -191,6 +192,8 @@ class ChangeTracker {
   }
   bool compared_twice() const { return compared_twice_; }
   const std::string& worst() const { return worst_; }
+  // That part of its relative error which no mesh reduces.
+  double worst_left_out() const { return worst_left_out_; }
 
  private:
   // A layer may chance to change nothing, so that the change before counts as well, but not those of
@@ -214,6 +217,7 @@ class ChangeTracker {
   std::vector<double> last_estimate_;    // of their errors
   std::vector<double> last_floor_;       // of which a share remains at least
   std::string worst_;
+  double worst_left_out_ = 0.0;
   int last_layers_ = 0;
   bool compared_twice_ = false;
 };
@@ -250,10 +254,14 @@ SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_
         "distant pillars) leaves a relative error of about " +
         text_of(answer.step_error, 2) + "; ask for a larger tolerance, or for fewer results");
   }
+  const double left_out = tracker.worst_left_out();
+  const bool is_of_mesh = left_out < 0.5 * answer.largest_relative_error;
   throw std::runtime_error(
       "the finest mesh (degree " + std::to_string(answer.discretisation.degree) +
       ") leaves a relative error of about " + text_of(answer.largest_relative_error, 2) +
-      " in the " + tracker.worst() + "; ask for a larger tolerance, or for fewer results");
+      " in the " + tracker.worst() +
+      (is_of_mesh ? "" : ", of which no finer mesh reduces about " + text_of(left_out, 2)) +
+      "; ask for a larger tolerance, or for fewer results");
 }
 
 }  // namespace viscard

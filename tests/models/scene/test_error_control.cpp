@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 using namespace viscard;
@@ -54,4 +56,26 @@ TEST_CASE("a change without a new layer does not replace what is known of the ri
   const SceneAnswer answer = answer_of(values, {1, 2, 2, 3, 3}, 1e-3, 0.1);
   CHECK(answer.discretisation.degree == 3);
   CHECK(answer.results.front().error_estimate >= 0.89e-3);
+}
+
+TEST_CASE("a refusal for an error that no mesh reduces does not blame the mesh", "[pillar][plan]") {
+  const auto refusal = [](double left_out, double change) {
+    ErrorControl control{.tolerance = 1e-3, .share_left = 0.1};
+    for (int i = 0; i < 3; ++i) control.meshes.push_back({.degree = i, .layers = i + 1});
+    try {
+      answer_within(control, [&](const Discretisation& mesh) {
+        SceneAnswer answer;
+        answer.discretisation = mesh;
+        answer.results.push_back({"voltage", 1.0 + change * mesh.degree, "V"});
+        answer.results.back().left_out = left_out;
+        return answer;
+      });
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(refusal(4e-3, 0.0).find("of which no finer mesh reduces about 0.004") != std::string::npos);
+  CHECK(refusal(1e-5, 0.1).find("of which") == std::string::npos);
+  CHECK(refusal(1e-5, 0.1).find("the finest mesh (degree 2)") == 0);
 }
