@@ -248,12 +248,13 @@ bool is_recording_inputs() {
 }
 
 std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded,
-                             const std::string& table) {
+                             const std::string& table, bool is_plausible_off) {
   nlohmann::ordered_json json = {{"schema", "viscard-inputs/1"},
                                  {"created_by", program_with_version()},
                                  {"is_recorded", is_recorded},
                                  {"table_sha256", sha256_of_text(table)},
                                  {"files", nlohmann::ordered_json::array()}};
+  if (is_plausible_off) json["plausible"] = "off";
   for (const InputFile& file : files) {
     json["files"].push_back({{"path", written_path(file.path)}, {"sha256", file.sha256}});
     if (!file.note.empty()) json["files"].back()["note"] = written_text(file.note);

@@ -84,9 +84,9 @@ void note_input(const std::filesystem::path& path, const std::string& note);
 bool is_recording_inputs();
 
 // The object {"schema": "viscard-inputs/1", "created_by", "is_recorded", "table_sha256", "files": [{"path",
-// "sha256", perhaps "note"}]} that lies beside a table. is_recorded false: of some rows the inputs are not known. The sum of
-// the table shows which table it belongs to.
+// "sha256", perhaps "note"}], perhaps "plausible": "off"} that lies beside a table. is_recorded false: of some rows the
+// inputs are not known. The sum of the table shows which table it belongs to.
 std::string json_from_inputs(const std::vector<InputFile>& files, bool is_recorded,
-                             const std::string& table);
+                             const std::string& table, bool is_plausible_off);
 
 }  // namespace viscard

@@ -108,7 +108,8 @@ void print_doubts(const StudyOutcome& outcome, StudyStore& store, const std::str
   }
   if (store.n_damaged() > 0) {
     say(
-        fmt::format("{}: {} damaged; their points were removed or left out, and are answered again "
+        fmt::format("{}: {} damaged or of another study; their points were removed or left out, "
+                    "and are answered again "
                     "by the same command",
                     file, counted(store.n_damaged(), "row")));
   }
@@ -193,7 +194,9 @@ int run_sweep_program(const SweepProgram& program, const Words& words, Streams& 
   if (asked.csv) {
     const std::string table = csv_from_study(store, study);
     write_file(*asked.csv + ".inputs.json",
-               json_from_inputs(study.inputs, store.has_recorded_inputs(), table), asked.overwrite);
+               json_from_inputs(study.inputs, store.has_recorded_inputs(), table,
+                                judged == Plausible::kOff),
+               asked.overwrite);
     write_file(*asked.csv, table, asked.overwrite);
   }
   const auto n_done = static_cast<std::int64_t>(store.done().size());

@@ -38,6 +38,16 @@ void refuse_second_name(const std::filesystem::path& path) {
                            "and name the copy, or remove the other names");
 }
 
+// SQLite leaves files beside a database that it may only read, unless it takes it for one that nobody changes. One
+// that is in use, or was left by a killed program, has its log beside it.
+Database opened_to_look(const std::filesystem::path& path) {
+  const auto has = [&](const char* ending) {
+    return std::filesystem::exists(path.string() + ending);
+  };
+  const bool has_log = has("-wal") || has("-journal");
+  return {path, has_log ? Database::Access::kReadOnly : Database::Access::kMainFileOnly};
+}
+
 // Looks into an existing file without changing it.
 void refuse_other_kind(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) {
@@ -48,7 +58,7 @@ void refuse_other_kind(const std::filesystem::path& path) {
   refuse_orphaned_log(path, "sweep");
   std::error_code ignored;
   if (!std::filesystem::exists(path) || std::filesystem::file_size(path, ignored) == 0) return;
-  Database database(path, Database::Access::kReadOnly);
+  Database database = opened_to_look(path);
   if (database.text_of("PRAGMA application_id") != "0") refuse_other_file(path);
   const std::string n_tables = database.text_of("SELECT count(*) FROM sqlite_schema");
   const std::string n_own = database.text_of(

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/capture/sqlite_database.h"
+
 #include <filesystem>
 #include <functional>
 #include <stop_token>
@@ -8,6 +10,8 @@
 
 namespace viscard {
 
+// An existing file, opened so that it and what lies beside it stay as they are.
+Database opened_to_look(const std::filesystem::path& path);
 // Throws std::runtime_error: the file is SQLite's, and no store of a study.
 [[noreturn]] void refuse_other_file(const std::filesystem::path& path);
 // Throws std::runtime_error if an existing file is no store of a study. Does not change it.

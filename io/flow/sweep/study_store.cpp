@@ -46,11 +46,21 @@ PointKind kind_from(const std::string& word, const std::string& failure) {
   return failure.empty() ? PointKind::kAnswered : PointKind::kError;
 }
 
+// Stores of this user_version bind their rows to the study and its inputs.
+constexpr const char* kIsBound = "PRAGMA user_version = 1;";
+
+// What the checksums of this store begin with: a log of another store that lies beside this one would pass for its
+// own otherwise. Empty in stores of before 2026-12.
+std::string binding_of(Database& database, const Study& study) {
+  return database.text_of("PRAGMA user_version") == "0" ? "" : fingerprint_with_inputs(study);
+}
+
 // Of the columns of a row, from the first to `kind`.
-std::int64_t checksum_of(std::int64_t point, const std::string& parameters,
-                         const std::string& results, const std::string& failure,
-                         const std::string& kind) {
+std::int64_t checksum_of(const std::string& binding, std::int64_t point,
+                         const std::string& parameters, const std::string& results,
+                         const std::string& failure, const std::string& kind) {
   RowChecksum sum;
+  sum.add(binding);
   for (const std::string& text : {std::to_string(point), parameters, results, failure, kind}) {
     sum.add(std::to_string(text.size()) + ":" + text);
   }
@@ -83,7 +93,7 @@ void refuse_other_points(const std::filesystem::path& path, const Study& study,
                          const StoreOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::exists(path) || std::filesystem::file_size(path, ignored) == 0) return;
-  Database database(path, Database::Access::kReadOnly);
+  Database database = opened_to_look(path);
   if (database.text_of("SELECT count(*) FROM sqlite_schema") == "0") return;
   if (database.text_of("SELECT fingerprint FROM study LIMIT 1") != fingerprint(study))
     refuse_other_study(path, options);
@@ -108,30 +118,44 @@ bool has_column(Database& database, const char* name) {
   return found.step();
 }
 
-// By which files are compared: of one outside the folder of the study a store may state its name only (--strip-paths).
-std::string compared_name(const std::string& path) {
-  const bool is_outside = path.starts_with("../") || path.starts_with("/");
-  return is_outside ? std::filesystem::path(path).filename().string() : path;
+// The file of a study that a store states under this name: the same path, or, if the study was moved or its paths
+// were stripped, the first of the others outside its folder that has the same file name.
+std::vector<InputFile>::iterator found_input(std::vector<InputFile>& files, const std::string& kept,
+                                             bool by_file_name) {
+  const auto is_outside = [](const std::string& path) {
+    return path.starts_with("../") || path.starts_with("/");
+  };
+  const auto name_of = [](const std::string& path) {
+    return std::filesystem::path(path).filename();
+  };
+  return std::find_if(files.begin(), files.end(), [&](const InputFile& file) {
+    if (!by_file_name) return file.path == kept;
+    return is_outside(file.path) && (is_outside(kept) || name_of(kept) == kept) &&
+           name_of(file.path) == name_of(kept);
+  });
 }
 
 // The first file that is not what it was, for a message; empty: all are.
 std::string changed_input(Database& database, const Study& study) {
-  std::map<std::string, std::set<std::string>> kept, now;  // sums by name
+  std::vector<InputFile> now = study.inputs, kept;
   Statement row = database.prepare("SELECT path, sha256 FROM inputs");
-  while (row.step()) kept[compared_name(row.text(0))].insert(row.text(1));
-  for (const InputFile& file : study.inputs) now[compared_name(file.path)].insert(file.sha256);
-  for (const auto& [name, sums] : now) {
-    const auto old = kept.find(name);
-    if (old == kept.end()) return name + " was not read then";
-    if (old->second != sums) {
-      return name + " has changed since (SHA-256 " + old->second.begin()->substr(0, 8) +
-             "... then, " + sums.begin()->substr(0, 8) + "... now)";
-    }
+  while (row.step()) kept.push_back({row.text(0), row.text(1)});
+  std::string changed;
+  for (const bool by_file_name : {false, true}) {
+    std::erase_if(kept, [&](const InputFile& then) {
+      const auto file = found_input(now, then.path, by_file_name);
+      if (file == now.end()) return false;
+      if (file->sha256 != then.sha256 && changed.empty()) {
+        changed = file->path + " has changed since (SHA-256 " + then.sha256.substr(0, 8) +
+                  "... then, " + file->sha256.substr(0, 8) + "... now)";
+      }
+      now.erase(file);
+      return true;
+    });
   }
-  for (const auto& [name, sums] : kept) {
-    if (now.count(name) == 0) return name + " is not read any more";
-  }
-  return {};
+  if (!changed.empty()) return changed;
+  if (!now.empty()) return now.front().path + " was not read then";
+  return kept.empty() ? "" : kept.front().path + " is not read any more";
 }
 
 // Throws if the points are of another study or other files. Returns whether the inputs are recorded.
@@ -158,6 +182,7 @@ bool check_study(Database& database, const std::filesystem::path& path, const St
 
 void create_tables(Database& database, const Study& study) {
   database.execute(kTables);
+  database.execute(kIsBound);
   Statement keep = database.prepare("INSERT INTO study (fingerprint) VALUES (?)");
   keep.run_with(std::string_view(fingerprint(study)));
   Statement input = database.prepare("INSERT INTO inputs VALUES (?, ?)");
@@ -192,7 +217,7 @@ Database opened_to_read(const std::filesystem::path& path, const Study& study,
                         const StoreOptions& options, bool& is_recorded) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path.string() + ": no such file");
   refuse_other_kind(path);
-  Database database(path, Database::Access::kReadOnly);
+  Database database = opened_to_look(path);
   refuse_damage(database, path);
   if (!has_table(database, "study")) refuse_other_file(path);
   is_recorded = check_study(database, path, study, options);
@@ -246,11 +271,19 @@ WrittenValues written_values_of(const Study& study) {
 
 constexpr const char* kColumns = "point, parameters, results, failure, kind, crc32";
 
+// How the rows of a store are judged.
+struct RowCheck {
+  std::string binding;
+  bool has_recorded_inputs = true;
+
+  bool is_sound(const Statement& row) const;
+};
+
 // Of a row with these columns. Rows of before there were checksums have none; stores that state their inputs
 // had them from the beginning.
-bool is_sound(const Statement& row, bool has_recorded_inputs) {
+bool RowCheck::is_sound(const Statement& row) const {
   if (!row.maybe_number(5)) return !has_recorded_inputs && row.text(4).empty();
-  return checksum_of(row.integer(0), row.text(1), row.text(2), row.text(3), row.text(4)) ==
+  return checksum_of(binding, row.integer(0), row.text(1), row.text(2), row.text(3), row.text(4)) ==
          row.integer(5);
 }
 
@@ -266,11 +299,11 @@ std::string columns_of(Database& database) {
                                        : "point, parameters, results, failure, NULL, NULL";
 }
 
-std::vector<std::int64_t> damaged_rows(Database& database, bool has_recorded_inputs) {
+std::vector<std::int64_t> damaged_rows(Database& database, const RowCheck& check) {
   std::vector<std::int64_t> damaged;
   Statement row = database.prepare(("SELECT " + columns_of(database) + " FROM points").c_str());
   while (row.step()) {
-    if (!is_sound(row, has_recorded_inputs)) damaged.push_back(row.integer(0));
+    if (!check.is_sound(row)) damaged.push_back(row.integer(0));
   }
   return damaged;
 }
@@ -302,10 +335,11 @@ StudyStore::StudyStore(const std::filesystem::path& path, const Study& study,
                 ? std::optional<StudyLock>(std::in_place, path, options.on_gone, options.waits_s)
                 : std::nullopt),
       database_(opened(path, study, options, has_recorded_inputs_)),
+      binding_(binding_of(database_, study)),
       written_(written_values_of(study)),
       insert_(database_.prepare(kInsert)) {
   Statement forget = database_.prepare("DELETE FROM points WHERE point = ?");
-  for (const std::int64_t point : damaged_rows(database_, has_recorded_inputs_)) {
+  for (const std::int64_t point : damaged_rows(database_, {binding_, has_recorded_inputs_})) {
     forget.run_with(point);
     ++n_damaged_;
   }
@@ -336,7 +370,7 @@ void StudyStore::add(const StudyPoint& point) {
                     results = text_from_json(json_from(point.results)), kind = word_of(point.kind);
   insert_.run_with(point.point, std::string_view(values), std::string_view(results),
                    std::string_view(point.failure), std::string_view(kind),
-                   checksum_of(point.point, values, results, point.failure, kind));
+                   checksum_of(binding_, point.point, values, results, point.failure, kind));
 }
 
 void StudyStore::add(const std::vector<StudyPoint>& points) {
@@ -349,6 +383,7 @@ std::int64_t StudyStore::merge(const std::filesystem::path& other, const Study& 
                                const StoreOptions& options) {
   bool is_recorded = false;
   Database from = opened_to_read(other, study, options, is_recorded);
+  const RowCheck check{binding_of(from, study), is_recorded};
   const std::set<std::int64_t> here = done();
   std::int64_t taken = 0;
   std::size_t n_damaged = 0;
@@ -356,7 +391,7 @@ std::int64_t StudyStore::merge(const std::filesystem::path& other, const Study& 
   Statement row =
       from.prepare(("SELECT " + columns_of(from) + " FROM points ORDER BY point").c_str());
   while (row.step()) {
-    if (!is_sound(row, is_recorded)) {
+    if (!check.is_sound(row)) {
       ++n_damaged;
       continue;
     }
@@ -373,7 +408,7 @@ void StudyStore::for_each(const std::function<void(const StudyPoint&)>& take) {
   const std::string sql = "SELECT " + std::string(kColumns) + " FROM points ORDER BY point";
   Statement rows = database_.prepare(sql.c_str());
   while (rows.step()) {
-    if (is_sound(rows, has_recorded_inputs_)) take(point_in(rows));
+    if (RowCheck{binding_, has_recorded_inputs_}.is_sound(rows)) take(point_in(rows));
   }
 }
 

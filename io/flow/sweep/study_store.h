@@ -51,7 +51,7 @@ struct StoreOptions {
 };
 
 // The points that are done, in an SQLite file: table `points`, one row for each, with the values of the
-// parameters and the results as JSON, and a checksum; table `inputs`, the files that the answers depend
+// parameters and the results as JSON, and a checksum that only rows of this study and these inputs have; table `inputs`, the files that the answers depend
 // on. A row is there as soon as add() returns, and survives kill -9; no point is there twice.
 class StudyStore {
  public:
@@ -82,6 +82,7 @@ class StudyStore {
   std::optional<StudyLock> lock_;  // first: SQLite's connection must be closed before it ends
   bool has_recorded_inputs_ = true;
   Database database_;
+  std::string binding_;  // what the checksum of a row begins with
   WrittenValues written_;
   std::size_t n_damaged_ = 0;
   Statement insert_;

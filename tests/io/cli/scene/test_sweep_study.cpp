@@ -337,6 +337,11 @@ TEST_CASE("the table of a sweep has the sums of its inputs beside it", "[cli][sc
   CHECK(sums["rubber.json"] == sha256_of_file(files.first));
   CHECK(sums["other.json"] == sha256_of_file(files.second));
   CHECK(sums.count("study.toml") == 1);
+  CHECK_FALSE(json.contains("plausible"));
+  const std::vector<std::string> off = {"--out",   files.store,   "--csv", table,
+                                        "--force", "--plausible", "off"};
+  REQUIRE(files.sweep(off).status == 0);
+  CHECK(nlohmann::json::parse(read_file(table + ".inputs.json"))["plausible"] == "off");
 }
 
 TEST_CASE("a store without recorded inputs goes on only if that is accepted",
@@ -415,6 +420,72 @@ TEST_CASE("a damaged row of a store is not an answer", "[cli][scene][sweep]") {
   CHECK(says(outcome.err, "1 row damaged"));
   StudyStore store(files.store, study);
   CHECK(csv_from_study(store, study) == whole);
+}
+
+TEST_CASE("a row of another study is not an answer of this one", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string other = files.scene.beside("other.sqlite"), part = files.scene.beside("part");
+  REQUIRE(files.sweep({"--out", other}).status == 0);
+  write_file(files.study,
+             std::string(kFilmStudy) + "[[parameter]]\nkey = \"tolerance\"\nvalues = [\"0.02\"]\n",
+             true);
+  REQUIRE(files.sweep({"--out", files.store}).status == 0);
+  std::filesystem::copy_file(files.store, part);
+  const Study study = read_study(files.study);
+  const std::string whole = [&] {
+    StudyStore store(files.store, study);
+    return csv_from_study(store, study);
+  }();
+  // As a log that another store has left beside this one does, page by page.
+  change_store(part, ("ATTACH '" + other +
+                      "' AS b; DELETE FROM points WHERE point = 1; INSERT INTO points SELECT * "
+                      "FROM b.points WHERE point = 1")
+                         .c_str());
+  const std::string all = files.scene.beside("all.sqlite");
+  const CommandOutcome merged = files.sweep({"--out", all, "--merge", part});
+  CHECK(says(merged.err, "1 row damaged or of another study"));
+  CHECK(StudyStore(all, study).done() == std::set<std::int64_t>{0, 2, 3});
+  const CommandOutcome outcome = files.sweep({"--out", part});
+  CHECK(outcome.status == 0);
+  CHECK(says(outcome.err, "1 row damaged or of another study"));
+  StudyStore store(part, study);
+  CHECK(csv_from_study(store, study) == whole);
+}
+
+TEST_CASE("inputs of one name that have changed places are noticed", "[cli][scene][sweep]") {
+  const SceneText scene(kFilmScene);
+  const std::filesystem::path folder = std::filesystem::path(scene.path()).parent_path();
+  for (const char* name : {"a", "b", "s"}) std::filesystem::create_directory(folder / name);
+  const std::string first = folder / "a" / "rubber.json", second = folder / "b" / "rubber.json",
+                    study = folder / "s" / "study.toml", store = scene.beside("a.sqlite");
+  write_file(first, rubber(1.8e6), false);
+  write_file(second, rubber(2.5e6), false);
+  write_file(study,
+             "scene = \"../scene.toml\"\n[[parameter]]\nkey = \"materials.pillar.file\"\n"
+             "values = [\"a/rubber.json\", \"b/rubber.json\"]\n",
+             false);
+  REQUIRE(run_command({"sweep", study, "--out", store}).status == 0);
+  CHECK(run_command({"sweep", study, "--out", store}).status == 0);
+  write_file(first, rubber(2.5e6), true);
+  write_file(second, rubber(1.8e6), true);
+  const CommandOutcome outcome = run_command({"sweep", study, "--out", store});
+  CHECK(outcome.status == 1);
+  CHECK(says(outcome.err, "../a/rubber.json has changed since"));
+}
+
+TEST_CASE("a look at a database leaves no file beside it", "[cli][scene][sweep]") {
+  const FilmStudy files;
+  const std::string other = files.scene.beside("other.sqlite");
+  write_file(other, "", false);
+  change_store(other, "PRAGMA journal_mode = WAL; CREATE TABLE mine(a);");
+  REQUIRE(files.sweep({"--out", files.store}).status == 0);
+  CHECK(files.sweep({"--out", other}).status == 1);
+  CHECK(files.sweep({"--out", files.scene.beside("all.sqlite"), "--merge", files.store}).status ==
+        0);
+  for (const std::string& file : {other, files.store}) {
+    CHECK_FALSE(std::filesystem::exists(file + "-wal"));
+    CHECK_FALSE(std::filesystem::exists(file + "-shm"));
+  }
 }
 
 TEST_CASE("the inputs of a study have one order, however it is named", "[cli][scene][sweep]") {
