@@ -167,6 +167,11 @@ void add_body_sum(Json& json) {
   json[kBodySum] = sum_of_body(json);
 }
 
+bool has_own_sum(const std::string& text) {
+  const Json json = parse_json(text, "the file");
+  return json.is_object() && json.contains(kBodySum) && json[kBodySum] == sum_of_body(json);
+}
+
 bool is_doubt_of_record(const MaterialFlag& flag) {
   static const std::set<std::string> kDoubts = {kEdited,
                                                 "unverified",
