@@ -1,6 +1,7 @@
 #include "io/cards/card_sum.h"
 
 #include "io/basics/sha256.h"
+#include "io/cards/header_name.h"
 
 #include <algorithm>
 
@@ -9,12 +10,11 @@ namespace {
 
 constexpr const char* kMark = "card sha256 ";
 constexpr const char* kEditedCard = "card-edited";
-constexpr std::size_t kMarkLength = 12, kDigits = 64;
+constexpr std::size_t kDigits = 64;
 
 // Where the digits of the sum begin; npos if the card states none.
 std::size_t digits_at(const std::string& card) {
-  const std::size_t at = card.find(kMark);
-  return at == std::string::npos ? at : at + kMarkLength;
+  return behind_mark(card, kMark);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace viscard {
 
 // "card sha256 000..." as it is written before the text of the card is known; sealed() puts the sum in.
 std::string unsealed_sum_line();
-// Replaces the sum of the first such line. A text without one stays as it is.
+// Replaces the sum of the first line that begins with it. A text without one stays as it is.
 std::string sealed(const std::string& card);
 
 // The sum that a card states, or "".
