@@ -325,8 +325,7 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
   // What was found in a comparison explains the edit.
   const bool is_explained =
       reference != nullptr ? !check.findings.empty() : has_mistake(check.findings);
-  if (!is_explained && is_card_edited(plain))
-    check.findings.push_back(edited_card_finding(reference != nullptr));
+  if (!is_explained) add(sum_finding(plain, reference != nullptr), check);
   if (plain.size() == text.size()) return check;
   check.findings.insert(check.findings.begin(), byte_order_mark_finding(target));
   check.agrees = check.agrees && !check.findings.front().is_mistake;

@@ -173,14 +173,10 @@ bool has_own_sum(const std::string& text) {
 }
 
 bool is_doubt_of_record(const MaterialFlag& flag) {
-  static const std::set<std::string> kDoubts = {kEdited,
-                                                "unverified",
-                                                "samples-damaged",
-                                                "reports-damaged",
-                                                "temperatures-damaged",
-                                                "side-file-torn",
-                                                "side-file-missing",
-                                                "calibration-edited"};
+  static const std::set<std::string> kDoubts = {
+      kEdited,           kUncheckedCardFlag,  "unverified",
+      "samples-damaged", "reports-damaged",   "temperatures-damaged",
+      "side-file-torn",  "side-file-missing", "calibration-edited"};
   return kDoubts.count(flag.name) > 0;
 }
 

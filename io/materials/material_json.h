@@ -38,6 +38,8 @@ bool has_own_sum(const std::string& text);
 inline constexpr const char* kEdited = "edited";
 inline constexpr const char* kEditedText =
     "the file was edited since it was written by viscard fit";
+// Name of the flag of what was read from a card by viscard that states no sum of its text.
+inline constexpr const char* kUncheckedCardFlag = "card-unchecked";
 // Whether a flag states that the record behind a material may not be what was written: edited, or fitted from a
 // damaged capture (integrity_notes()). Such a flag goes into whatever is made of the material.
 bool is_doubt_of_record(const MaterialFlag& flag);

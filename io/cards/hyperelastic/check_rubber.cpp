@@ -192,8 +192,8 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
       std::any_of(check.findings.begin(), check.findings.end(),
                   [](const CardFinding& finding) { return finding.is_mistake; });
   const bool is_explained = file != nullptr ? !check.findings.empty() : has_mistake;
-  if (!is_explained && is_card_edited(text))
-    check.findings.push_back(edited_card_finding(file != nullptr));
+  if (const auto doubt = sum_finding(text, file != nullptr); doubt && !is_explained)
+    check.findings.push_back(*doubt);
   check.agrees = (!check.difference || *check.difference <= check.tolerance) && !has_mistake;
   return check;
 }
