@@ -1,6 +1,7 @@
 #include "io/cards/card_sum.h"
 
 #include "io/basics/sha256.h"
+#include "io/cards/header_name.h"
 
 #include <algorithm>
 
@@ -9,12 +10,11 @@ namespace {
 
 constexpr const char* kMark = "card sha256 ";
 constexpr const char* kEditedCard = "card-edited";
-constexpr std::size_t kMarkLength = 12, kDigits = 64;
+constexpr std::size_t kDigits = 64;
 
 // Where the digits of the sum begin; npos if the card states none.
 std::size_t digits_at(const std::string& card) {
-  const std::size_t at = card.find(kMark);
-  return at == std::string::npos ? at : at + kMarkLength;
+  return behind_mark(card, kMark);
 }
 
 }  // namespace
@@ -40,12 +40,21 @@ bool is_card_edited(const std::string& card) {
   return !stated.empty() && stated != card_sum(card);
 }
 
-CardFinding edited_card_finding(bool is_compared) {
+std::optional<CardFinding> sum_finding(const std::string& card, bool is_compared) {
+  const bool is_by_viscard = behind_mark(card, "viscard ") != std::string::npos &&
+                             behind_mark(card, "units: ") != std::string::npos;
+  if (is_by_viscard && !is_compared && stated_card_sum(card).empty()) {
+    return CardFinding{"card-unchecked",
+                       "the header states no sum of the card, because it was written before "
+                       "2026-12 or the sum was removed; whether it was edited cannot be seen",
+                       false};
+  }
+  if (!is_card_edited(card)) return std::nullopt;
   const std::string text =
       "the card is not as viscard wrote it (the sum in its header differs)" +
       std::string(is_compared ? ", and no number of it differs from the material's"
                               : ": numbers or words of it were changed since");
-  return {kEditedCard, text, false};
+  return CardFinding{kEditedCard, text, false};
 }
 
 bool has_edited_finding(const std::vector<CardFinding>& findings) {

@@ -2,6 +2,7 @@
 
 #include "io/cards/read_card.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace viscard {
 
 // "card sha256 000..." as it is written before the text of the card is known; sealed() puts the sum in.
 std::string unsealed_sum_line();
-// Replaces the sum of the first such line. A text without one stays as it is.
+// Replaces the sum of the first line that begins with it. A text without one stays as it is.
 std::string sealed(const std::string& card);
 
 // The sum that a card states, or "".
@@ -21,8 +22,9 @@ std::string stated_card_sum(const std::string& card);
 std::string card_sum(const std::string& card);
 // True if the card states a sum that is not its own: a number or a word of it was changed since.
 bool is_card_edited(const std::string& card);
-// The note "card-edited". is_compared: with a material, from which no number of the card differs.
-CardFinding edited_card_finding(bool is_compared);
+// The note of what the sum shows: "card-edited", or "card-unchecked" of a card by viscard that states none, or
+// nothing. is_compared: with a material, from which no number of the card differs; then a sum need not be stated.
+std::optional<CardFinding> sum_finding(const std::string& card, bool is_compared);
 bool has_edited_finding(const std::vector<CardFinding>& findings);
 
 }  // namespace viscard

@@ -4,6 +4,7 @@
 #include "io/cards/card.h"
 #include "io/cards/card_form.h"
 #include "io/cards/card_sum.h"
+#include "io/cards/header_name.h"
 #include "io/cards/list_differences.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/plausible_card.h"
@@ -207,13 +208,12 @@ void compare(const Material& reference, CardCheck& check) {
 
 // The header of a card by viscard states E0. It reveals edited numbers, even without a material.
 void compare_with_header(const std::string& text, CardCheck& check) {
-  const std::string mark = "E0 (instantaneous) = ";
-  const std::size_t at = text.find(mark);
+  const std::size_t at = behind_mark(text, "E0 (instantaneous) = ");
   const double found_Pa = check.read.material.E0_Pa;
   // The header's number is in the unit system, which the reader of such a card does not know.
   const bool is_comparable = !check.read.understood.numbers_carry_units && found_Pa > 0.0;
   if (at == std::string::npos || !is_comparable) return;
-  const double stated = leading_number(std::string_view(text).substr(at + mark.size()));
+  const double stated = leading_number(std::string_view(text).substr(at));
   const double stated_Pa = from_card(stated, check.read.units.stress_exponent);
   // The header has ten digits; columns round E(t) by up to 1e-4 before a card is refused.
   if (std::abs(found_Pa / stated_Pa - 1.0) <= 2e-4) return;
@@ -325,8 +325,7 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
   // What was found in a comparison explains the edit.
   const bool is_explained =
       reference != nullptr ? !check.findings.empty() : has_mistake(check.findings);
-  if (!is_explained && is_card_edited(plain))
-    check.findings.push_back(edited_card_finding(reference != nullptr));
+  if (!is_explained) add(sum_finding(plain, reference != nullptr), check);
   if (plain.size() == text.size()) return check;
   check.findings.insert(check.findings.begin(), byte_order_mark_finding(target));
   check.agrees = check.agrees && !check.findings.front().is_mistake;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cstddef>
 
 namespace viscard {
 namespace {
@@ -42,6 +41,19 @@ std::string name_from_header(const std::string& text) {
     i += 2;
   }
   return name_in_header(name) == text ? name : text;
+}
+
+std::size_t behind_mark(const std::string& header, std::string_view mark) {
+  for (std::size_t at = header.find(mark); at != std::string::npos;
+       at = header.find(mark, at + 1)) {
+    std::size_t begin = at;
+    const auto is_in_line = [&](std::size_t i) {
+      return header[i] != '\n' && std::isalnum(static_cast<unsigned char>(header[i])) == 0;
+    };
+    while (begin > 0 && is_in_line(begin - 1)) --begin;
+    if (begin == 0 || header[begin - 1] == '\n') return at + mark.size();
+  }
+  return std::string::npos;
 }
 
 }  // namespace viscard

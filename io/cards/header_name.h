@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace viscard {
 
@@ -11,5 +13,10 @@ std::string name_in_header(const std::string& name);
 
 // The name of the file again. A text that name_in_header() does not write, as in older cards, is the name itself.
 std::string name_from_header(const std::string& text);
+
+// Where the text behind a mark such as "units: " begins, in the first line that begins with it: before it stand no
+// letter or digit, so at most the sign of a comment. npos if no line does. A mark elsewhere in a line may belong to
+// the name of a file or material.
+std::size_t behind_mark(const std::string& header, std::string_view mark);
 
 }  // namespace viscard

@@ -2,6 +2,7 @@
 
 #include "io/basics/patterns.h"
 #include "io/cards/card_lines.h"
+#include "io/cards/header_name.h"
 #include "io/cards/unread_tokens.h"
 #include "models/maths/result_visitor.h"
 
@@ -144,9 +145,12 @@ void ReadCard::add_second_material(const CardLine& line) {
 }
 
 std::string stated_unit_system(const std::string& text) {
-  const std::size_t at = text.find("units: ");
+  constexpr std::string_view kUnits = "units: ";
+  const std::size_t at = text.find(kUnits);
   if (at == std::string::npos) return "";
-  const std::size_t begin = at + 7;
+  // Headers by hand may have other words before it.
+  const std::size_t stated = behind_mark(text, kUnits);
+  const std::size_t begin = stated == std::string::npos ? at + kUnits.size() : stated;
   const std::size_t end = text.find_first_of(" \n\"", begin);
   const std::string name = text.substr(begin, end - begin);
   return find_unit_system(name) != nullptr ? name : "";

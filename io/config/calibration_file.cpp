@@ -32,8 +32,9 @@ void show_frame_numbers(FieldVisitor& fields, FrameConfig& frame) {
 constexpr const char* kBodySum = "body_sha256";
 
 // The first line of a record states the sum of what follows. False for a record without it, which was written
-// by hand or before.
-bool is_edited_since(const std::string& text) {
+// by hand or before. The line ends of Windows are no edit; the writer escapes any other carriage return.
+bool is_edited_since(std::string text) {
+  std::erase(text, '\r');
   const std::string begin = kBodySum + std::string(" = \"");
   const std::size_t end = text.find('\n');
   if (!text.starts_with(begin) || end == std::string::npos)

@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/file_kind.h"
+#include "io/basics/inputs.h"
 #include "io/basics/json_string.h"
 #include "io/materials/material_json.h"
 #include "io/materials/plausible_numbers.h"
@@ -197,6 +198,8 @@ std::string json_from_card_of_rubber(const HyperelasticFile& file) {
   law["trustworthy"] = true;
   law["flags"] = Json::array();
   if (file.is_edited) law["flags"].push_back({{"name", kEdited}, {"text", kEditedText}});
+  if (!file.card_doubt.empty())
+    law["flags"].push_back({{"name", kUncheckedCardFlag}, {"text", file.card_doubt}});
   Json json{{"schema", kHyperelasticSchema}, {"law", name_of(file)}};
   json["trustworthy"] = true;
   json["laws"] = Json::array({law});
@@ -241,6 +244,10 @@ HyperelasticFile hyperelastic_from_json(const std::string& text, const std::stri
       for (const RubberJson& flag : law.at("flags")) {
         file.defects.push_back(flag.at("text"));
         if (flag.value("name", "") == kEdited) file.is_edited = true;
+        if (flag.value("name", "") == kUncheckedCardFlag) {
+          file.card_doubt = flag.at("text");
+          note_input(name, file.card_doubt);
+        }
       }
       add_tests(json, file);
       if (json.contains("bulk_modulus_Pa")) file.bulk_Pa = json["bulk_modulus_Pa"].get<double>();

@@ -44,6 +44,7 @@ struct HyperelasticFile {
   std::vector<RawFile> raw_files;
   // Of a law that was read from a card.
   std::optional<double> bulk_Pa = {}, density_kg_m3 = {};
+  std::string card_doubt = {};  // why an edit of that card could not be seen; "": it states its sum
 };
 
 // Name of its law: "yeoh", "hyperfoam-2".

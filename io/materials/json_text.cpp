@@ -148,9 +148,14 @@ std::string sum_of_body(Json json) {
   return sha256_of_text(text_from_json(json));
 }
 
-// Materials have it in "provenance"; what typed numbers come from begins with other words.
+// Laws of rubber have no author, but those by viscard name tables or a card, with sums. Materials state it in
+// "provenance", joint fits in that of "common"; what typed numbers come from begins with other words.
 bool is_by_viscard(const Json& json) {
-  const Json& origin = json.contains("provenance") ? json["provenance"] : json;
+  if (json.contains("laws"))
+    return json.contains("imported_from") || (json.contains("tests") && !json["tests"].empty());
+  const Json& material = json.contains("common") ? json["common"] : json;
+  if (!material.is_object()) return false;
+  const Json& origin = material.contains("provenance") ? material["provenance"] : material;
   return origin.is_object() && origin.contains("created_by") && origin["created_by"].is_string() &&
          origin["created_by"].get<std::string>().starts_with("viscard ");
 }
@@ -162,15 +167,16 @@ void add_body_sum(Json& json) {
   json[kBodySum] = sum_of_body(json);
 }
 
+bool has_own_sum(const std::string& text) {
+  const Json json = parse_json(text, "the file");
+  return json.is_object() && json.contains(kBodySum) && json[kBodySum] == sum_of_body(json);
+}
+
 bool is_doubt_of_record(const MaterialFlag& flag) {
-  static const std::set<std::string> kDoubts = {kEdited,
-                                                "unverified",
-                                                "samples-damaged",
-                                                "reports-damaged",
-                                                "temperatures-damaged",
-                                                "side-file-torn",
-                                                "side-file-missing",
-                                                "calibration-edited"};
+  static const std::set<std::string> kDoubts = {
+      kEdited,           kUncheckedCardFlag,  "unverified",
+      "samples-damaged", "reports-damaged",   "temperatures-damaged",
+      "side-file-torn",  "side-file-missing", "calibration-edited"};
   return kDoubts.count(flag.name) > 0;
 }
 

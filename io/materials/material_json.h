@@ -30,11 +30,16 @@ int whole_number(const Json& json);
 // Adds the key body_sha256: the SHA-256 of all other keys and values, so that a change by hand or by a
 // worn disk is noticed. Spaces and line breaks do not count.
 void add_body_sum(Json& json);
+// True if the file of this text has that key, with the right sum: it is as viscard wrote it. Throws
+// std::runtime_error if the text is not JSON.
+bool has_own_sum(const std::string& text);
 // Name and text of the flag of what was changed since. A file without the key was written by hand, or by
 // an earlier version, and is not known to be changed.
 inline constexpr const char* kEdited = "edited";
 inline constexpr const char* kEditedText =
     "the file was edited since it was written by viscard fit";
+// Name of the flag of what was read from a card by viscard that states no sum of its text.
+inline constexpr const char* kUncheckedCardFlag = "card-unchecked";
 // Whether a flag states that the record behind a material may not be what was written: edited, or fitted from a
 // damaged capture (integrity_notes()). Such a flag goes into whatever is made of the material.
 bool is_doubt_of_record(const MaterialFlag& flag);

@@ -8,6 +8,7 @@
 #include "io/flow/words/fit_words.h"
 #include "io/flow/words/predict_words.h"
 #include "io/materials/material_file.h"
+#include "io/materials/material_json.h"
 #include "io/serve/api_error.h"
 #include "io/serve/desk_files.h"
 #include "io/serve/desk_words.h"
@@ -62,13 +63,17 @@ Json card_keywords(Json chosen) {
   return chosen;
 }
 
-// True if this file is the material that the command would write of tables with these sums.
+// True if this file is the material that the command would write of tables with these sums. One that another
+// version wrote, or that was edited since, may have other numbers.
 bool is_material_of(const std::filesystem::path& path, const std::string& command,
                     const Texts& sha256) {
   try {
-    const Provenance made = looks_like_ratio_file(path) ? read_ratio_fit(path).common.provenance
-                                                        : read_material(path).material.provenance;
-    return made.command == command &&
+    const std::string text = read_file(path), name = path.string();
+    const Provenance made = looks_like_ratio_file(path)
+                                ? ratio_fit_from_json(text, name).common.provenance
+                                : material_from_json(text, name).material.provenance;
+    return made.created_by == program_with_version() && has_own_sum(text) &&
+           made.command == command &&
            std::equal(
                made.raw_files.begin(), made.raw_files.end(), sha256.begin(), sha256.end(),
                [](const RawFile& file, const std::string& sum) { return file.sha256 == sum; });

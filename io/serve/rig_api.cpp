@@ -373,12 +373,18 @@ std::string RigApi::save_material(const FittedFile& fitted, const std::string& s
     const auto& raw = of.provenance.raw_files;
     return raw.empty() ? std::string() : raw.front().sha256;
   };
-  if (sum_of(read_material(file).material) != sum_of(material)) {
-    throw std::runtime_error(file.filename().string() +
-                             " is the material of another record; rename it, then open this result "
-                             "again");
-  }
-  return file.filename().string();
+  const MaterialFile there = read_material(file);
+  const std::string by = there.material.provenance.created_by;
+  const std::string why = sum_of(there.material) != sum_of(material)
+                              ? "is the material of another record"
+                          : by != material.provenance.created_by
+                              ? "was written by " + (by.empty() ? "another program" : by) +
+                                    ", and this is " + material.provenance.created_by
+                          : !has_own_sum(there.original_json) ? "was edited since it was written"
+                                                              : "";
+  if (why.empty()) return file.filename().string();
+  throw std::runtime_error(file.filename().string() + " " + why +
+                           "; rename it, then open this result again");
 }
 
 // A request that was admitted before may begin a run after the first call.

@@ -1,6 +1,7 @@
 #include "io/cards/hyperelastic/check_rubber.h"
 
 #include "io/cards/card_sum.h"
+#include "io/cards/header_name.h"
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/hyperelastic/rubber_mistakes.h"
 #include "io/cards/list_differences.h"
@@ -17,13 +18,15 @@
 namespace viscard {
 namespace {
 
-// The number behind a mark of viscard's own header, or nothing.
-std::optional<double> stated_number(const std::string& text, const std::string& mark) {
-  if (stated_rubber_target(text).empty()) return std::nullopt;
-  std::size_t at = text.find(mark);
-  if (at == std::string::npos) return std::nullopt;
-  at += mark.size();
+// The number at a place of viscard's own header, or nothing.
+std::optional<double> number_at(const std::string& text, std::size_t at) {
+  if (at == std::string::npos || stated_rubber_target(text).empty()) return std::nullopt;
   return number_from_text(std::string_view(text).substr(at, text.find_first_of(" \n", at) - at));
+}
+
+// That of the line that begins with this mark.
+std::optional<double> stated_number(const std::string& text, const std::string& mark) {
+  return number_at(text, behind_mark(text, mark));
 }
 
 // Shear modulus at rest of the law that stands in the card.
@@ -44,7 +47,7 @@ void take_volume(const std::string& text, const HyperelasticFile* file,
   if (expected.foam) {
     const auto first_density = options.density_kg_m3 ? options.density_kg_m3
                                : of_density          ? of_density
-                                                     : stated_number(text, " density ");
+                                                     : stated_number(text, "density ");
     expected.density_kg_m3 = first_density.value_or(0.0);
     return;
   }
@@ -55,11 +58,11 @@ void take_volume(const std::string& text, const HyperelasticFile* file,
   const std::optional<double> of_header =
       has(" incompressible: use hybrid") ? std::optional(0.0)
       : has(kUsualBulkText) ? std::optional(kUsualBulkRatio * youngs_modulus_Pa(expected.law) / 3.0)
-                            : stated_number(text, " bulk modulus ");
+                            : stated_number(text, "bulk modulus ");
   expected.bulk_Pa = first(options.bulk_Pa, of_file, of_header);
   expected.density_kg_m3 =
       first(options.density_kg_m3, file == nullptr ? std::nullopt : file->density_kg_m3,
-            stated_number(text, " density "))
+            stated_number(text, "density "))
           .value_or(0.0);
   if (!expected.bulk_Pa || read.poisson == 0.0) return;
   const double shear_Pa = shear_in_card_Pa(expected, read.is_long_term), K = *expected.bulk_Pa;
@@ -78,7 +81,9 @@ std::vector<CardFinding> header_findings(const std::string& text, const RubberPa
                    fmt::format("{} is {:.9g}, {:.6g} times the {:.9g} stated", what, a, a / b, b),
                    true});
   };
-  if (const auto E = stated_number(text, "Young's modulus at rest "))
+  const std::string modulus = "Young's modulus at rest ";  // stands behind the relaxation
+  const std::size_t at = text.find(modulus);
+  if (const auto E = number_at(text, at == std::string::npos ? at : at + modulus.size()))
     compare("Young's modulus at rest",
             found.foam ? youngs_modulus_Pa(*found.foam) : youngs_modulus_Pa(found.law), *E);
   if (expected.bulk_Pa && expected.poisson == 0.0)
@@ -89,12 +94,10 @@ std::vector<CardFinding> header_findings(const std::string& text, const RubberPa
     compare("the bulk modulus, by Poisson's ratio", *found.bulk_Pa, *expected.bulk_Pa);
   if (found.damage) {
     const double values[] = {found.damage->r, found.damage->m_Pa, found.damage->beta};
-    const char* const marks[] = {" damage r ", " damage m ", " damage beta "};
+    const char* const marks[] = {"damage r", "damage m", "damage beta"};
     for (std::size_t i = 0; i < 3; ++i) {
-      if (const auto stated = stated_number(text, marks[i]))
-        compare(
-            std::string("the") + std::string(marks[i]).substr(0, std::string(marks[i]).size() - 1),
-            values[i], *stated);
+      if (const auto stated = stated_number(text, std::string(marks[i]) + " "))
+        compare(std::string("the ") + marks[i], values[i], *stated);
     }
   }
   if (expected.density_kg_m3 > 0.0)
@@ -189,8 +192,8 @@ RubberCheck check_rubber_card(const std::string& text, const HyperelasticFile* f
       std::any_of(check.findings.begin(), check.findings.end(),
                   [](const CardFinding& finding) { return finding.is_mistake; });
   const bool is_explained = file != nullptr ? !check.findings.empty() : has_mistake;
-  if (!is_explained && is_card_edited(text))
-    check.findings.push_back(edited_card_finding(file != nullptr));
+  if (const auto doubt = sum_finding(text, file != nullptr); doubt && !is_explained)
+    check.findings.push_back(*doubt);
   check.agrees = (!check.difference || *check.difference <= check.tolerance) && !has_mistake;
   return check;
 }

@@ -2,6 +2,7 @@
 
 #include "io/basics/words.h"
 #include "io/cards/card_lines.h"
+#include "io/cards/header_name.h"
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/named_material.h"
 #include "io/cards/targets/card_targets.h"
@@ -149,8 +150,7 @@ bool looks_like_rubber_card(const std::string& text) {
 }
 
 std::string stated_rubber_target(const std::string& text) {
-  const std::string mark = "viscard card: ";
-  const std::size_t at = text.find(mark);
+  const std::size_t at = behind_mark(text, "viscard card: ");
   if (at == std::string::npos) return "";
   const std::string line = text.substr(at, text.find('\n', at) - at);
   for (const std::string& target : rubber_card_targets()) {

@@ -76,6 +76,7 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const CardTa
     lines.push_back(kPlausibleOffText);
   }
   if (file.is_edited) lines.push_back(std::string("note: ") + kEditedText);
+  if (!file.card_doubt.empty()) lines.push_back("note: " + file.card_doubt);
   if (options.bulk_Pa) {
     lines.push_back("bulk modulus " + text_of(*options.bulk_Pa, kDigits) + " Pa");
     const std::string doubt = doubtful_bulk_modulus(file, options);

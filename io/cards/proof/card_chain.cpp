@@ -7,7 +7,6 @@
 #include "models/maths/result_visitor.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -41,12 +40,8 @@ void look_for(const std::vector<std::string>& others, ChainLink& link) {
 
 // "** raw data a.csv sha256 ...": the file between the mark, which begins the line, and the sum, or nothing.
 std::optional<ChainLink> link_in(const std::string& line, const std::string& mark) {
-  const std::size_t at = line.find(mark), sum = line.rfind(kSum);
-  if (at == std::string::npos || sum == std::string::npos || sum < at) return std::nullopt;
-  const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0; };
-  if (std::any_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(at), is_word))
-    return std::nullopt;  // a file may have the mark in its name
-  const std::size_t begin = at + mark.size();
+  const std::size_t begin = behind_mark(line, mark), sum = line.rfind(kSum);
+  if (begin == std::string::npos || sum == std::string::npos || sum < begin) return std::nullopt;
   std::string path = line.substr(begin, sum - begin);
   while (!path.empty() && path.back() == ' ') path.pop_back();
   return ChainLink{name_from_header(path), line.substr(sum + kSumLength, kDigits), ""};

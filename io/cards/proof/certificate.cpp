@@ -83,7 +83,9 @@ std::string sealed_certificate(const std::string& text) {
 }
 
 bool is_certificate_unchanged(const std::string& text) {
-  return text.rfind(kSumKey) != std::string::npos && sealed_certificate(text) == text;
+  std::string written = text;
+  std::erase(written, '\r');  // the line ends of Windows are no edit; JSON escapes any other
+  return written.rfind(kSumKey) != std::string::npos && sealed_certificate(written) == written;
 }
 
 void show_head(ResultVisitor& v, const CertificateRequest& request, const std::string& statement,

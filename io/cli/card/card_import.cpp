@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <regex>
 #include <sstream>
@@ -30,13 +31,18 @@ namespace {
 // What was received: of several materials in a file the text of one, and what is known of the whole.
 struct ReceivedCard {
   std::string text, sha256;
-  bool is_edited = false;
+  std::optional<CardFinding> doubt;  // by the sum of the whole
+  bool is_edited() const { return doubt && doubt->name != kUncheckedCardFlag; }
+  // Why an edit could not be seen, for whatever the card becomes; "": it states a sum.
+  std::string unchecked() const {
+    return doubt && !is_edited() ? "of the card that it was read from: " + doubt->text : "";
+  }
 };
 
 ReceivedCard received(const CardWords& words) {
   const std::string whole = read_file(words.material);
   return {card_text_of(words.material, words), sha256_of_text(whole),
-          is_card_edited(without_byte_order_mark(whole))};
+          sum_finding(without_byte_order_mark(whole), false)};
 }
 
 // What a card became.
@@ -84,10 +90,13 @@ std::vector<MaterialFlag> flags_of_header(const std::string& card) {
   return flags;
 }
 
-// A card whose header states another sum, even if no reader notices what was changed.
-void note_edit(const ReceivedCard& card, std::vector<CardFinding>& findings) {
-  if (card.is_edited && !has_edited_finding(findings))
-    findings.push_back(edited_card_finding(false));
+// A card whose header states another sum or none, even if no reader notices what was changed.
+void note_doubt(const ReceivedCard& card, std::vector<CardFinding>& findings) {
+  if (!card.doubt) return;
+  const auto is_noted = [&](const CardFinding& finding) {
+    return finding.name == card.doubt->name;
+  };
+  if (std::none_of(findings.begin(), findings.end(), is_noted)) findings.push_back(*card.doubt);
 }
 
 ImportedCard import_linear(const ReceivedCard& card, const CardWords& words) {
@@ -101,14 +110,18 @@ ImportedCard import_linear(const ReceivedCard& card, const CardWords& words) {
       check_card(text, target, {.units = words.units, .plausible = words.plausible}, nullptr);
   require_right(check.findings, check.read.units_were_stated || !words.units.empty(),
                 words.material);
-  note_edit(card, check.findings);
+  note_doubt(card, check.findings);
   Material material = check.read.material;
   if (material.name.empty()) material.name = std::filesystem::path(words.material).stem().string();
   if (material.shift) material.T_ref_C = material.shift->T_ref_C;
   material.flags = flags_of_header(text);
-  const auto states_edit = [](const MaterialFlag& flag) { return flag.name == kEdited; };
-  if (card.is_edited && std::none_of(material.flags.begin(), material.flags.end(), states_edit))
-    material.flags.push_back({kEdited, 0, "the card was edited since it was written by viscard"});
+  const auto add_once = [&](const char* name, const std::string& why) {
+    const auto is_there = [&](const MaterialFlag& flag) { return flag.name == name; };
+    if (std::none_of(material.flags.begin(), material.flags.end(), is_there))
+      material.flags.push_back({name, 0, why});
+  };
+  if (card.is_edited()) add_once(kEdited, "the card was edited since it was written by viscard");
+  if (!card.unchecked().empty()) add_once(kUncheckedCardFlag, card.unchecked());
   material.flags.push_back({"imported", 0,
                             "read from a card for " + check.read.understood.code +
                                 "; no data and no intervals stand behind it"});
@@ -129,7 +142,7 @@ ImportedCard import_rubber(const ReceivedCard& card, const CardWords& words) {
       text, nullptr, {.target = words.target, .units = words.units, .plausible = words.plausible});
   const ReadRubber& read = check.read;
   require_right(check.findings, read.units_were_stated || !words.units.empty(), words.material);
-  note_edit(card, check.findings);
+  note_doubt(card, check.findings);
   HyperelasticFile file;
   file.law = read.law;
   file.foam = read.foam;
@@ -139,7 +152,8 @@ ImportedCard import_rubber(const ReceivedCard& card, const CardWords& words) {
   if (read.density_kg_m3 > 0.0) file.density_kg_m3 = read.density_kg_m3;
   file.raw_files = {{written_path(words.material), card.sha256}};
   // As its sum shows or its header states.
-  file.is_edited = card.is_edited || text.find(kEditedText) != std::string::npos;
+  file.is_edited = card.is_edited() || text.find(kEditedText) != std::string::npos;
+  file.card_doubt = card.unchecked();
   return {json_from_card_of_rubber(file), name_of(read), check.findings};
 }
 

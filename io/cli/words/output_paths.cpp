@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -89,7 +90,20 @@ void refuse_standard_output(const NamedPath& path) {
       "one of that name");
 }
 
-// Endings of formats that no command writes, and those of a command's own formats at another of its outputs.
+// The ending of the one file that --out of a command is; "" for folders, and for cards, whose solver decides.
+std::string_view ending_of_out(std::string_view command) {
+  struct Output {
+    std::string_view command, ending;
+  };
+  constexpr Output kWritten[]{{"viscard report", ".html"},    {"viscard export", ".csv"},
+                              {"viscard fit", ".json"},       {"viscard sweep", ".sqlite"},
+                              {"viscard calibrate", ".toml"}, {"viscard capture", ".viscap"}};
+  const auto* const found = std::find_if(std::begin(kWritten), std::end(kWritten),
+                                         [&](const Output& one) { return one.command == command; });
+  return found == std::end(kWritten) ? "" : found->ending;
+}
+
+// Endings of formats that no command writes, and those of viscard's own formats at outputs of another.
 void refuse_foreign_ending(const NamedPath& output, const std::string& command) {
   constexpr std::array<std::string_view, 19> kForeign{
       ".png", ".jpg", ".jpeg", ".gif", ".bmp", ".webp", ".tif", ".tiff", ".eps", ".ps",
@@ -97,9 +111,8 @@ void refuse_foreign_ending(const NamedPath& output, const std::string& command) 
   constexpr std::array<std::string_view, 4> kOwn{".svg", ".csv", ".html", ".json"};
   std::string ending = output.path.extension().string();
   for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  const bool is_page = command == "viscard report" && output.option == "out";
   const std::string_view written = output.option == "svg"           ? ".svg"
-                                   : is_page                        ? ".html"
+                                   : output.option == "out"         ? ending_of_out(command)
                                    : output.option.ends_with("csv") ? ".csv"
                                                                     : "";
   const bool is_foreign = std::find(kForeign.begin(), kForeign.end(), ending) != kForeign.end();
@@ -155,8 +168,8 @@ void check_output_paths(const CommandSyntax& syntax) {
     refuse_standard_output(path);
     if (!path.is_output) continue;
     const std::string usage = syntax.usage;  // "viscard report FILE..."
-    refuse_foreign_ending(path, usage.substr(0, usage.find(' ', usage.find(' ') + 1)));
     refuse_shared_file(path, paths);
+    refuse_foreign_ending(path, usage.substr(0, usage.find(' ', usage.find(' ') + 1)));
     refuse_unwritable_folder(path);
     refuse_output_name(path.path);
     const auto& may_exist = syntax.may_exist;

@@ -2,6 +2,8 @@
 #include "io/cards/card.h"
 #include "io/cards/card_sum.h"
 #include "io/cards/check_card.h"
+#include "io/cards/hyperelastic/read_rubber.h"
+#include "io/cards/proof/card_chain.h"
 #include "io/cards/targets/card_targets.h"
 #include "tests/io/cards/card_materials.h"
 
@@ -182,6 +184,39 @@ TEST_CASE("the temperature that a header asks for is in the unit of the card", "
              Contains("296.15 K for the times below"));
   CHECK_THAT(write_card(material, card_target("abaqus"), {}).text,
              Contains("23 C for the times below"));
+}
+
+TEST_CASE("names that are lines of a header leave the header of every card as it is", "[cards]") {
+  const std::string digits(64, 'a');
+  const CardOptions options{.units = "mm-t-s",
+                            .is_reproducible = true,
+                            .material_sha256 = digits,
+                            .material_file = "card sha256 m.json"};
+  for (const CardTarget& target : card_targets()) {
+    Material material = material_for(target);
+    for (const std::string& name :
+         {"card sha256 " + digits, std::string("units: SI (E0 (instantaneous) = 7)"),
+          std::string("viscard card: yeoh for abaqus")}) {
+      CAPTURE(target.name, name);
+      material.name = name;
+      material.provenance.raw_files = {{name + ".csv", digits}};
+      const Card card = write_card(material, target, options);
+      CHECK(card.text.find(name + " for " + target.code) != std::string::npos);
+      CHECK(card.text.find(std::string(64, '0')) == std::string::npos);
+      CHECK(stated_card_sum(card.text) == card_sum(card.text));
+      CHECK_FALSE(is_card_edited(card.text));
+      for (const CompanionFile& companion : card.companions)
+        CHECK_FALSE(is_card_edited(companion.text));
+      CHECK(stated_unit_system(card.text) == "mm-t-s");
+      CHECK(stated_rubber_target(card.text).empty());
+      CHECK(findings_of(card.text, target, &material).empty());
+      const CardChain chain = chain_of("", card.text, "");
+      CHECK(chain.stated_sum == chain.found_sum);
+      REQUIRE(chain.raw_files.size() == 1);
+      CHECK(chain.raw_files[0].path == name + ".csv");
+      CHECK(chain.material.stated == digits);
+    }
+  }
 }
 
 TEST_CASE("no flipped bit of a card leaves its sum right", "[cards]") {

@@ -65,6 +65,18 @@ double least_energy(double C10, double C01, double K, double s) {
 
 }  // namespace
 
+TEST_CASE(
+    "a certificate with the line ends of Windows is unchanged, and one with a word more is not",
+    "[cards]") {
+  const std::string text =
+      certificate_text([](ResultVisitor& v) { show_end(v, "", true, [] {}, {}); });
+  std::string of_windows;
+  for (const char c : text) of_windows += c == '\n' ? "\r\n" : std::string(1, c);
+  CHECK(is_certificate_unchanged(text));
+  CHECK(is_certificate_unchanged(of_windows));
+  CHECK_FALSE(is_certificate_unchanged(replaced(of_windows, "true", "false")));
+}
+
 TEST_CASE("rubber proofs: the stress of a cube is the slope of its least energy", "[io]") {
   const double C10 = 1.5e5, C01 = 2e4, step = 1e-4;
   const HyperelasticLaw law = rubber_of(HyperelasticForm::kMooneyRivlin, {C10, C01}, {}, {}).law;

@@ -85,6 +85,17 @@ TEST_CASE("the same fit keeps its material, another one gets a name that is free
   CHECK(material(Json::object()) == "a.json");
   CHECK(read_file(desk.folder() / "a.json") == first);
   CHECK(names_in(desk.folder()) == std::set<std::string>{"a.csv", "a.json", "a.2.json"});
+  // A material that another version wrote, or that was edited, is not this fit.
+  MaterialFile older = read_material(desk.folder() / "a.json");
+  older.material.provenance.created_by = "viscard 0.0.1";
+  older.material.E0_Pa *= 1.1;
+  write_file(desk.folder() / "a.json", json_from_material(older), true);
+  CHECK(material(Json::object()) == "a.3.json");
+  CHECK(material(Json::object()) == "a.3.json");
+  std::string edited = read_file(desk.folder() / "a.3.json");
+  edited.insert(edited.find_first_of("0123456789", edited.find("\"E0_Pa\":") + 8), "1");
+  write_file(desk.folder() / "a.3.json", edited, true);
+  CHECK(material(Json::object()) == "a.4.json");
 }
 
 TEST_CASE("a report of the desk has the options of the folder, and the title of the page first",

@@ -1,6 +1,8 @@
 // Runs on the emulated rig, started, watched and stopped as the page does it.
+#include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
+#include "io/materials/material_file.h"
 #include "tests/io/serve/served_rig.h"
 #include "tests/support/error_text.h"
 
@@ -184,6 +186,24 @@ TEST_CASE("the material of another record is not stated as that of this run", "[
   const Json wanted = {{"capture", name + ".viscap"}};
   for (int i = 0; i < 2; ++i)
     CHECK(rig.order("/api/fit", wanted).json.at("material_file") == name + ".json");
+  // Nor is that of another version, whose numbers may differ, or one that was edited.
+  const std::filesystem::path file = rig.folder() / (name + ".json");
+  const std::string own = read_file(file);
+  MaterialFile older = read_material(file);
+  older.material.provenance.created_by = "viscard 0.0.1";
+  older.material.E0_Pa *= 1.1;
+  std::string edited = own;
+  edited.insert(edited.find_first_of("0123456789", edited.find("\"E0_Pa\":") + 8), "1");
+  for (const auto& [text, why] :
+       {std::pair{json_from_material(older), "was written by viscard 0.0.1, and this is viscard "},
+        {edited, "was edited since it was written; rename it"}}) {
+    write_file(file, text, true);
+    const auto kept = rig.order("/api/fit", wanted);
+    INFO(kept.json.dump());
+    CHECK(kept.json.at("material_file").is_null());
+    CHECK(contains(kept.json.at("material_trouble"), why));
+    CHECK(read_file(file) == text);
+  }
   std::filesystem::copy_file(VISCARD_SOURCE_DIR "/data/materials/pdms_1to10_seed.json",
                              rig.folder() / (name + ".json"),
                              std::filesystem::copy_options::overwrite_existing);

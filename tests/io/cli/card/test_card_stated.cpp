@@ -1,5 +1,6 @@
 #include "io/cards/header_name.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/materials/hyperelastic_file.h"
 #include "tests/io/cards/card_materials.h"
 #include "tests/io/cli/card/card_command.h"
 
@@ -332,4 +333,55 @@ TEST_CASE("an edited card is no card without mistake, and its material states th
                       [](const auto& flag) { return flag.name == "edited"; }) == 1);
   REQUIRE(read.provenance.raw_files.size() == 1);
   CHECK(read.provenance.raw_files[0].sha256 == sha256_of_file(sent));
+}
+
+TEST_CASE(
+    "a card by viscard without its sum is noted when it is checked, and flagged when imported",
+    "[cards][cli]") {
+  CardCommand card;
+  const auto without_sum = [](const std::string& path) {
+    std::string text = read_file(path);
+    const std::size_t at = text.rfind('\n', text.find("card sha256 "));
+    REQUIRE(at != std::string::npos);
+    return text.erase(at, text.find('\n', at + 1) - at);
+  };
+  const std::string file = card.save(reference_material()), sent = card.path("sent.inp"),
+                    law = card.path("law.json"), made = card.path("made.json");
+  const auto is_noted = Contains("card-unchecked: the header states no sum of the card");
+  REQUIRE(card.run({file, "--for", "abaqus", "--units", "mm-t-s", "--out", sent}) == kDone);
+  CHECK(card.run({"--check", sent}) == kDone);
+  CHECK_THAT(card.out, !is_noted);
+  std::string text = without_sum(sent);
+  const std::size_t at = text.rfind("2.403");
+  REQUIRE(at != std::string::npos);
+  write_file(sent, text.replace(at, 5, "9.403"), true);
+  CHECK(card.run({"--check", sent}) == kDone);
+  CHECK_THAT(card.out, Contains("note ") && is_noted);
+  REQUIRE(card.run({sent, "--import", made}) == kDone);
+  CHECK_THAT(card.err, is_noted);
+  const auto flags = read_material(made).material.flags;
+  CHECK(std::any_of(flags.begin(), flags.end(),
+                    [](const auto& flag) { return flag.name == "card-unchecked"; }));
+  // The same of a law of rubber, whose cards state it again.
+  write_file(law,
+             R"({"schema": "viscard-hyperelastic/1", "law": "neo-hooke", "trustworthy": true,
+"laws": [{"name": "neo-hooke", "parameters": [{"name": "C10_Pa", "value": 200000.0}], "terms": [],
+"trustworthy": true, "flags": []}], "tests": [], "flags": []})",
+             true);
+  REQUIRE(card.run({law, "--for", "abaqus", "--units", "SI", "--out", sent, "--force"}) == kDone);
+  CHECK(card.run({"--check", sent}) == kDone);
+  CHECK_THAT(card.out, !is_noted);
+  write_file(sent, without_sum(sent), true);
+  CHECK(card.run({"--check", sent}) == kDone);
+  CHECK_THAT(card.out, Contains("note ") && is_noted);
+  REQUIRE(card.run({sent, "--import", made, "--force"}) == kDone);
+  CHECK_THAT(card.err, is_noted);
+  CHECK_FALSE(read_hyperelastic(made).card_doubt.empty());
+  REQUIRE(card.run({made, "--for", "abaqus", "--units", "SI"}) == kDone);
+  CHECK_THAT(card.out,
+             Contains("note: of the card that it was read from: the header states no sum"));
+  // A card of before sums existed is only noted.
+  CHECK(card.run({"--check", VISCARD_SOURCE_DIR "/tests/compatibility/before/files/card.inp"}) ==
+        kDone);
+  CHECK_THAT(card.out, is_noted);
 }

@@ -1,4 +1,5 @@
 // Calibrations that cannot be right are refused at every door.
+#include "io/basics/atomic_file.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/config/config_file.h"
 #include "io/flow/capture_setup.h"
@@ -85,6 +86,22 @@ TEST_CASE("a table of weights with a wrong sign or a column a thousand times off
   const std::string table = weights(mass, volts, header);
   CHECK_THROWS_WITH(door.calibrate(table), Contains(words) && Contains("weights.csv"));
   CHECK_FALSE(exists(door.folder() / "cell.toml"));
+}
+
+TEST_CASE("a record with the line ends of Windows is not edited, and a number changed in it is",
+          "[cli]") {
+  const Door door;
+  door.calibrate(weights(1.0, 1.0, "mass_kg,volts_V"));
+  const std::string id = read_calibration(door.record()).calibration->id;
+  std::string text;
+  for (const char c : read_file(door.record())) text += c == '\n' ? "\r\n" : std::string(1, c);
+  write(door.record(), text);
+  CHECK(read_calibration(door.record()).calibration->id == id);
+  const std::size_t at = text.find("volts_per_newton = 0.7");
+  REQUIRE(at != std::string::npos);
+  text.replace(at, 22, "volts_per_newton = 0.8");
+  write(door.record(), text);
+  CHECK(read_calibration(door.record()).calibration->id == id + " (edited)");
 }
 
 TEST_CASE("with the span of the converter, volts that are millivolts are refused, too", "[cli]") {

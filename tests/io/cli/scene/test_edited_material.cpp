@@ -123,6 +123,63 @@ TEST_CASE("a material whose sum was taken away is noted, and is not if it was ty
   CHECK_THAT(run_command(words).err, !is_noted);
 }
 
+TEST_CASE(
+    "a joint fit or a law of rubber whose sum was taken away is noted, and a typed law is not",
+    "[cli]") {
+  const ScratchFolder scratch;
+  const std::string law = (scratch / "law.json").string(),
+                    joint = (scratch / "joint.json").string();
+  write_file(scratch / "u.csv",
+             "stretch,stress_Pa\n1,0\n1.1,110000\n1.2,203000\n1.4,356000\n1.6,484000\n"
+             "1.8,597000\n2,700000\n",
+             false);
+  REQUIRE(run_command({"fit", "uniaxial=" + (scratch / "u.csv").string(), "--model", "neo-hooke",
+                       "--out", law})
+              .status == 0);
+  std::vector<std::string> fit = {"fit", "--joint", "--ratio", "10",    "--ratio",
+                                  "13",  "--ratio", "20",      "--out", joint};
+  for (const double E_Pa : {1.9e6, 1.4e6, 0.9e6}) {
+    std::string table = "time_s,modulus_Pa\n";
+    for (int k = 1; k <= 300; ++k) {
+      const double t_s = 0.05 * k;
+      table +=
+          std::to_string(t_s) + "," +
+          std::to_string(E_Pa * (0.97 + 0.03 * std::exp(-t_s / 2.0) + 1e-4 * std::sin(7.0 * k))) +
+          "\n";
+    }
+    fit.push_back((scratch / (std::to_string(E_Pa) + ".csv")).string());
+    write_file(fit.back(), table, false);
+  }
+  REQUIRE(run_command(fit).status == 0);
+  const auto is_noted = Contains("has no sum of its contents");
+  const auto card_of = [](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"card", file, "--for", "abaqus", "--units", "SI"};
+    words.insert(words.end(), more.begin(), more.end());
+    const CommandOutcome card = run_command(words);
+    INFO(card.err);
+    CHECK(card.status == 0);
+    return card.err;
+  };
+  for (const auto& [file, more] : {std::pair{law, std::vector<std::string>{}},
+                                   std::pair{joint, std::vector<std::string>{"--ratio", "12"}}}) {
+    CAPTURE(file);
+    CHECK_THAT(card_of(file, more), !is_noted);
+    std::string text = read_file(file);
+    const std::size_t at = text.find("\"body_sha256\"");
+    REQUIRE(at != std::string::npos);
+    const std::size_t comma = text.rfind(',', at);
+    text.erase(comma, text.find('\n', at) - comma);
+    write_file(file, text, true);
+    CHECK_THAT(card_of(file, more), is_noted);
+  }
+  write_file(law,
+             R"({"schema": "viscard-hyperelastic/1", "law": "neo-hooke", "trustworthy": true,
+"laws": [{"name": "neo-hooke", "parameters": [{"name": "C10_Pa", "value": 200000.0}],
+"trustworthy": true, "flags": []}], "tests": [], "flags": []})",
+             true);
+  CHECK_THAT(card_of(law, {}), !is_noted);
+}
+
 TEST_CASE("a command that is stopped prints how to go on before it ends", "[cli]") {
   std::array<int, 2> pipe_ends{};
   REQUIRE(::pipe(pipe_ends.data()) == 0);

@@ -245,6 +245,12 @@ TEST_CASE("an output with the ending of another format is refused", "[cli]") {
       {{"predict", material, "--csv", folder / "a.xlsx"}, "end its name with .csv"},
       {{"report", material, "--out", folder / "r.pdf"}, "what is written is html"},
       {{"report", material, "--out", folder / "r.svg"}, "end its name with .html"},
+      {{"export", "r.viscap", "--out", folder / "r.truth.json", "--force"},
+       "end its name with .csv"},
+      {{"fit", "a.csv", "--out", folder / "m.csv"}, "end its name with .json"},
+      {{"sweep", "s.toml", "--out", folder / "s.csv"}, "end its name with .sqlite"},
+      {{"calibrate", "--data", "w.csv", "--out", folder / "c.json"}, "end its name with .toml"},
+      {{"capture", "--emulate", "--out", folder / "r.csv"}, "end its name with .viscap"},
       {{"simulate", "s.toml", "--out", folder / "x.png"}, "no command writes .png"}};
   for (const auto& [words, text] : cases) {
     CAPTURE(words);
