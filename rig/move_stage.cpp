@@ -108,6 +108,12 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
                            dynamic_cast<const LimitReached*>(&error) != nullptr;
     if (!is_relief && (!session.is_stage_connected() || !session.has_moved())) {
       const std::string note = session.is_stage_connected() ? behind(note_of(stage)) : "";
+      if (is_asked_for && order.is_home && !session.is_stage_connected()) {
+        throw RigError(
+            "the homing was stopped: the stage is not homed and stands where it was stopped. Look "
+            "at "
+            "the punch, lift it with: viscard rig lift");
+      }
       if (is_asked_for) throw RigError("the move was stopped before it began" + note);
       if (note.empty()) throw;
       throw RigError(failure_text(error, "this move") + note);

@@ -12,8 +12,10 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace viscard {
@@ -73,6 +75,17 @@ void keep_dtr_on_close(int descriptor) {
   tcsetattr(descriptor, TCSANOW, &settings);
 }
 
+// A last word, such as a stop, must not be thrown away with the port. Returns whether the line has taken all.
+bool drain(int descriptor) noexcept {
+  constexpr int kTries = 60;
+  constexpr std::chrono::milliseconds kBetween(5);
+  for (int tries = 0, n_left = 0; tries < kTries; ++tries) {
+    if (ioctl(descriptor, TIOCOUTQ, &n_left) != 0 || n_left == 0) return true;
+    std::this_thread::sleep_for(kBetween);
+  }
+  return false;
+}
+
 // Milliseconds for poll(), rounded up so that a short wait does not become a busy loop.
 int poll_ms(double seconds) {
   if (!(seconds > 0.0)) return 0;
@@ -86,8 +99,9 @@ void SerialLine::SafeClose::operator()(LibSerial::SerialPort* port) const noexce
   try {
     if (port->IsOpen()) {
       descriptor = port->GetFileDescriptor();
-      ioctl(descriptor, TIOCNXCL);     // libserial 1.0.0 never releases its exclusive use
-      tcflush(descriptor, TCIOFLUSH);  // otherwise closing waits until the device has read all
+      ioctl(descriptor, TIOCNXCL);  // libserial 1.0.0 never releases its exclusive use
+      // Closing waits until a device that reads no more has read all, unless that is thrown away.
+      tcflush(descriptor, drain(descriptor) ? TCIFLUSH : TCIOFLUSH);
       port->Close();
     }
     delete port;

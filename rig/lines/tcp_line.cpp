@@ -111,6 +111,10 @@ void TcpLine::open() {
 }
 
 void TcpLine::close() {
+  // Answers that nobody has read would make the system drop what was written last, such as a stop.
+  std::array<char, 4096> unread{};
+  while (descriptor_ >= 0 && ::recv(descriptor_, unread.data(), unread.size(), MSG_DONTWAIT) > 0) {
+  }
   if (descriptor_ >= 0) ::close(descriptor_);
   descriptor_ = -1;
 }

@@ -189,6 +189,12 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
   if (has_moved_ && !late.empty()) {
     throw LimitReached(reached + ", when nobody watched it: " + late);
   }
+  if (!has_moved_ && !is_stage_connected()) {
+    throw LimitReached(
+        reached + ", while the stage was connected" + (rig_.stage.home ? " and homed" : "") +
+        ": IT MAY STILL PRESS. Look at the punch, lift it with: viscard rig lift. If "
+        "nothing touches it, correct zero_volts of the calibration");
+  }
   if (!has_moved_) {
     throw LimitReached(reached +
                        ", before anything was moved: the punch was already pressing, or something "

@@ -146,7 +146,8 @@ void MarlinStage::require_true_reports(const Pump& pump) {
     reports_of_move(from, speed_m_s, pump);
     if (reports == Reports::kNotMoved && config_.home) {
       const long long little = std::clamp(forth, -most / 3, most / 3);
-      reports = reports_of_move(from + little, speed_m_s, pump);
+      reports = reports_of_move(from + little, speed_m_s, pump);  // and stays there: the next
+      if (reports == Reports::kTrue) return;  // command has a way from its end then
       reports_of_move(from, speed_m_s, pump);
     }
     if (reports != Reports::kNotMoved) continue;
@@ -185,11 +186,17 @@ void MarlinStage::home(const Pump& pump) {
 
 void MarlinStage::converse(bool is_first, const Pump& pump) {
   command("M110 N0", pump);
-  command("M115", pump);
-  wait_for([&] { return !firmware_.empty(); }, pump, kChatter_wall_s);
+  const auto is_known = [&] {
+    return firmware_.find("Marlin") != std::string::npos ||
+           firmware_.find("Prusa") != std::string::npos;
+  };
+  for (int i = 0; i < kConversations && !is_known(); ++i) {  // a letter may be garbled
+    firmware_.clear();
+    command("M115", pump);
+    wait_for([&] { return !firmware_.empty(); }, pump, kChatter_wall_s);
+  }
   if (firmware_.empty()) throw RigError("the stage did not name its firmware");
-  if (firmware_.find("Marlin") == std::string::npos &&
-      firmware_.find("Prusa") == std::string::npos) {
+  if (!is_known()) {
     throw RigError("the stage on '" + transport_.name() + "' runs '" + shown_bytes(firmware_) +
                    "', which is not Marlin: its stops and reports are not known");
   }

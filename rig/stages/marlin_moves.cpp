@@ -14,6 +14,7 @@ constexpr double kPiece_m = 20e-6;
 // the next one would come too late.
 constexpr double kPiece_s = 0.05;
 constexpr double kOldReport_s = 0.3;
+constexpr double kLastStep_wall_s = 0.01;
 constexpr double kStill_wall_s = 0.5;
 constexpr double kStillBetween_wall_s = 2.0;
 
@@ -98,8 +99,12 @@ void MarlinStage::follow_move(double asked_s, double received_s) {
   if (!active.ok_s || asked_s < *active.ok_s) return;
   // Reports that were not proven may be those of the plan, so its time has to pass as well.
   if (presses_nothing_ && asked_s < active.tracker->latest_end_s()) return;
-  const bool is_at_target = active.sent == active.target && std::llabs(count_ - active.target) <= 1;
-  is_at_target ? end_move() : rest_elsewhere(asked_s);
+  // The last step is still to come, or rounding has left it out.
+  const double step_s = std::max(clock_.from_wall_s(kLastStep_wall_s),
+                                 1.0 / (active.planned.speed_m_s * steps_per_m()));
+  const long long off = std::llabs(count_ - active.target);
+  const bool is_at_target = off == 0 || (off == 1 && asked_s > active.progress_s + step_s);
+  active.sent == active.target&& is_at_target ? end_move() : rest_elsewhere(asked_s);
 }
 
 // A soft limit shortens a move, and some builds make none before homing, both with an ok.

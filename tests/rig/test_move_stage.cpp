@@ -3,6 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <functional>
+#include <variant>
+
 namespace viscard {
 namespace {
 
@@ -207,6 +210,30 @@ TEST_CASE("a refused move that has unlocked a stage which is not homed warns, to
                       Contains("stopped before it began; the stage was locked"));
   }
   CHECK(rig.emulated.outcome().final_position_m == 0.0);
+}
+
+TEST_CASE("a homing that a person or a force ends is no move that has not begun", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.is_homing_enabled = true;
+  RigFixture rig(options);
+  StageOrder home;
+  home.is_home = true;
+  const auto in_homing = [&](const std::function<void()>& happens) {
+    rig.on_record = [happens](const RunRecord& record) {
+      const auto* raw = std::get_if<RawBytes>(&record);
+      if (raw != nullptr && raw->is_sent && raw->bytes.rfind("$H", 0) == 0) happens();
+    };
+  };
+  SECTION("a person") {
+    in_homing([&] { rig.stop = true; });
+    CHECK_THROWS_WITH(moved_on(rig, home),
+                      Contains("the homing was stopped") && Contains("Look at the punch"));
+  }
+  SECTION("a force") {
+    in_homing([&] { rig.emulated.hang_weight(2.2); });
+    CHECK_THROWS_WITH(moved_on(rig, home), Contains("connected and homed: IT MAY STILL PRESS") &&
+                                               !Contains("before anything was moved"));
+  }
 }
 
 }  // namespace viscard

@@ -90,6 +90,21 @@ TEST_CASE("bytes pass unchanged in both directions, 8 bits wide", "[rig][pty]") 
   CHECK(back == all);
 }
 
+TEST_CASE("what was written last, such as a stop, is not lost when the port is closed",
+          "[rig][pty]") {
+  PtyPort device;
+  {
+    SerialLine line(device.path(), 115200, wall());
+    line.write("M410\n", 1.0);
+  }
+  std::string there;
+  for (int i = 0; i < 100 && there.size() < 5; ++i) {
+    there += device.read_available();
+    usleep(1000);
+  }
+  CHECK(there == "M410\n");
+}
+
 TEST_CASE("a pulled cable is a hang-up after the last bytes, and closing does not abort",
           "[rig][pty]") {
   auto device = std::make_unique<PtyPort>();
