@@ -301,6 +301,7 @@ RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& r
   TestRun run{session, rig, plan, specimen, phases_from_plan(plan), {}};
   run.lifts_at_start = control.lifts_at_start;
   IndentationRun phases(run);
+  run.has_answered = control.has_answered || !rig.load_cell.answered_on.empty();
   const auto carry_out = [&](const std::function<void()>& part) {
     try {
       part();

@@ -2,6 +2,7 @@
 
 #include "models/maths/text_of_number.h"
 #include "rig/run/preflight.h"
+#include "rig/run/rest_findings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,13 +42,26 @@ double contact_threshold_N(TestRun& run) {
   return threshold_N;
 }
 
-// Observations that distinguish the three causes for a person at the rig.
+// Observations that distinguish the causes for a person at the rig. A punch that may press already
+// must not be brought nearer, so the load cell comes first.
 std::string nothing_touched_text(const TestRun& run) {
   const int sign = run.rig.stage.toward_specimen;
+  const std::string& day = run.rig.load_cell.answered_on;
+  const std::string cell =
+      "with a finger: viscard rig touch --rig FILE. If it does not answer, a wire of its "
+      "excitation or signal is open, which its noise does not show. ";
   return "nothing was touched within " + text_from_number(run.plan.approach_limit_m * 1e3, 2) +
-         " mm. If the punch came nearer, bring it nearer to the specimen before the start, or "
-         "raise limit under [approach] of the test file. If it moved away, set toward_specimen = " +
-         std::to_string(-sign) + " under [stage] of the rig file (it is " + std::to_string(sign) +
+         " mm. " +
+         (run.has_answered
+              ? "If the punch stands above the specimen, bring it nearer before the start, or "
+                "raise limit under [approach] of the test file. If it stood on it, touch the load "
+                "cell" +
+                    (day.empty() ? "" : ", which answered on " + day + ",") + " " + cell
+              : "The load cell has shown no force yet, so the punch may have pressed unnoticed. "
+                "Touch the cell first " +
+                    cell) +
+         "If the punch moved away, set toward_specimen = " + std::to_string(-sign) +
+         " under [stage] of the rig file (it is " + std::to_string(sign) +
          "). If it did not move at all, the motor is dead: check its supply, its cable and the "
          "enable input of its driver";
 }
@@ -305,10 +319,11 @@ void carry_out_approach(TestRun& run) {
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m, touch.at.force_N);
   // It rose when the stage pressed, and went when the stage lifted.
-  run.is_proven = true;
+  run.is_proven = run.has_answered = true;
   run.contact_N_m =
       contact.stiffness_N_m > 0.0 ? contact.stiffness_N_m : contact.least_stiffness_N_m;
   run.session.expect_force(run.contact_m, run.contact_N_m);
 }
+  if (!run.has_answered) run.session.event("advice", "unanswered", kUnanswered);
 
 }  // namespace viscard

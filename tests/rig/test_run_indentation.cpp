@@ -275,14 +275,21 @@ TEST_CASE("an approach that touches nothing within its limit is an error, and th
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = 8e-3;
+  const bool has_answered = GENERATE(true, false);
+  if (has_answered) options.config.load_cell.answered_on = "2026-11-28";
   RigFixture rig(options);
   TestPlan plan = short_plan();
   plan.approach_speed_m_s = 1e-3;
   plan.approach_limit_m = 0.5e-3;
   const RunOutcome outcome = rig.run(plan);
   CHECK(outcome.status == "interrupted");
-  CHECK_THAT(outcome.reason, Contains("nothing was touched") && Contains("toward_specimen = 1") &&
-                                 Contains("motor is dead") && Contains("lifted by"));
+  CHECK_THAT(outcome.reason, Contains("nothing was touched") && Contains("viscard rig touch") &&
+                                 Contains("toward_specimen = 1") && Contains("motor is dead") &&
+                                 Contains("lifted by"));
+  // A blind cell may have let the punch press: nobody is sent nearer before it has answered.
+  CHECK(Contains("bring it nearer").match(outcome.reason) == has_answered);
+  CHECK(Contains("Touch the cell first").match(outcome.reason) != has_answered);
+  CHECK(rig.has_event("advice", "unanswered") != has_answered);
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-6));
 }
 

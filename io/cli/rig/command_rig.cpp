@@ -15,6 +15,7 @@
 #include "rig/lines/port_probe.h"
 #include "rig/lines/transport.h"
 #include "rig/open_devices.h"
+#include "rig/run/rest_findings.h"
 
 #include <fmt/format.h>
 
@@ -134,7 +135,9 @@ void print_text(const RigCheck& found, std::ostream& out) {
     out << "thermometer sends no temperature\n";
   }
   for (const std::string& text : found.advice) out << "advice     " << text << "\n";
-  out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
+  out << (!found.is_usable       ? "not fit for a test yet\n"
+          : found.advice.empty() ? "ready\n"
+                                 : "ready, with the advice above\n");
 }
 
 int show_overshoot(bool as_json, Streams& streams) {
@@ -385,6 +388,8 @@ int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& 
   RunControl control;
   control.stop = &StopOnSignal::is_asked();
   Progress progress(streams, words.what);
+  const bool has_answered = words.is_emulated || !rig.load_cell.answered_on.empty();
+  if (order.toward_m > 0.0 && !has_answered) streams.err << "viscard: " << kUnanswered << "\n";
   control.progress = [&](const RunProgress& now) {
     // Only the move itself has a planned duration; homing and the force before it have none.
     progress.show(now.phase == kMovePhase ? now.fraction : 0.0,
