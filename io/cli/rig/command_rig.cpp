@@ -201,8 +201,9 @@ CommandSyntax rig_syntax(RigWords& words) {
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any but the "
       "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
-      "them, and reports what to change; nothing moves. touch waits for a finger or a weight on a "
-      "load cell whose readings show no noise, and writes the day into the rig file. jog moves the "
+      "them, and reports what to change; nothing moves. touch waits until a finger or a weight has "
+      "pressed on the load cell and is away again, and writes the day into the rig file. jog moves "
+      "the "
       "stage toward the specimen or away from it, lift moves it 2 mm away; they stop when the "
       "force has changed by --limit, away from the specimen only when it has risen by that or "
       "pulls with it. home runs the homing cycle of the controller, which only the "
@@ -280,12 +281,15 @@ int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
   constexpr double kWait_s = 30.0;
   const double wait_s = listening_seconds(words, kWait_s);
   const StopOnSignal on_signal;
-  const double force_N = touch_rig(
-      file ? read_rig(*file, words.plausible) : demo_rig(), words.is_emulated, wait_s,
-      [&] {
-        streams.err << "Put a finger or a weight on the load cell now, within " << wait_s << " s\n";
-      },
-      &StopOnSignal::is_asked());
+  TouchOptions options;
+  options.wait_s = wait_s;
+  options.stop = &StopOnSignal::is_asked();
+  options.ready = [&] {
+    streams.err << "Put a finger or a weight on the load cell now, within " << wait_s << " s\n";
+  };
+  options.felt = [&] { streams.err << "Take it away again, within " << wait_s << " s\n"; };
+  const double force_N =
+      touch_rig(file ? read_rig(*file, words.plausible) : demo_rig(), words.is_emulated, options);
   if (file && !words.is_emulated) write_answer(*file, today());
   if (as_json) {
     print_result(
