@@ -28,7 +28,8 @@ struct FrameStiffnessFit {
 // allow a straight line only. The relative standard uncertainty of the gain is added in quadrature.
 // Throws std::invalid_argument unless there are three points and the position increases with the
 // force, and std::runtime_error if seating or scatter leaves 1/k unknown by more than 20 %, and if the points
-// leave a line by more than 10 %, or settle by more than 25 %, of the whole motion.
+// leave a line by more than 10 %, or settle by more than 10 % of the whole motion or 10 um, or if the contact stiffens
+// by more than 3 % over the upper half of the forces.
 FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_relative_u);
 
 // The holds of a run with protocol "compliance" (models/experiment/test_plan.h): stage position and
