@@ -179,19 +179,34 @@ void use_stiffness(TestRun& run, double total_N_m) {
                                   : std::numeric_limits<double>::infinity();
   const double peak_N = specimen_N_m * depth_m;
   if (peak_N > limit_N(run)) {
-    run.session.event(
-        "advice", "stiffness",
-        "The specimen is stiffer than modulus_guess says: the whole depth would need " +
-            (std::isfinite(peak_N) ? text_from_number(peak_N, 2) + " N, more than the "
-                                   : std::string("far more than the ")) +
-            text_from_number(limit_N(run), 2) +
-            " N allowed. The punch goes less deep; lower the depth, or correct modulus_guess");
+    const std::string needs =
+        std::isfinite(peak_N)
+            ? "The specimen is stiffer than modulus_guess says: the whole depth would need " +
+                  text_from_number(peak_N, 2) + " N, more than the "
+            : "The contact is as stiff as the frame alone, so stiffness under [frame] of the rig "
+              "file may be too low; otherwise the whole depth would need far more than the ";
+    run.session.event("advice", "stiffness",
+                      needs + text_from_number(limit_N(run), 2) +
+                          " N allowed. The punch goes less deep; lower the depth, or correct " +
+                          (std::isfinite(peak_N) ? "modulus_guess" : "one of the two"));
     return;
   }
   const double before = expected.travel_per_depth;
   expected.travel_per_depth = 1.0 + specimen_N_m / frame_N_m;
   expected.stage_travel_m *= expected.travel_per_depth / before;
   expected.ramp_speed_m_s *= expected.travel_per_depth / before;
+}
+
+// Specimen and frame in series are softer than the frame, however stiff the specimen.
+void check_frame(const TestRun& run, double least_N_m) {
+  const FrameConfig& frame = run.rig.frame;
+  const double most_N_m = frame.stiffness_N_m * (1.0 + 2.0 * frame.stiffness_relative_u);
+  if (!(frame.stiffness_N_m > 0.0) || least_N_m <= most_N_m) return;
+  throw RigError("the contact is at least " + text_of(least_N_m * 1e-3, 3) +
+                 " N/mm stiff, and stiffness under [frame] of the rig file is only " +
+                 text_of(frame.stiffness_N_m * 1e-3, 3) +
+                 " N/mm, which nothing in series with it can exceed. Measure the frame with: "
+                 "viscard calibrate --compliance --rig FILE");
 }
 
 // A punch that presses must raise the force.
@@ -309,12 +324,14 @@ void back_off(TestRun& run, double contact_m, double touched_N) {
 }  // namespace
 
 void carry_out_approach(TestRun& run) {
+  if (!run.has_answered) run.session.event("advice", "unanswered", kUnanswered);
   const Touch first = touched_in_compression(run, contact_threshold_N(run));
   const Touch touch = pressed_further(run, first);
   const ContactEstimate contact = contact_from_stops(
       touch.before, touch.at, run.outcome.noise_N, 1.0 / run.session.stage().dynamics().steps_per_m,
       run.outcome.expected.total_stiffness_N_m);
   run.session.expect_stiffness(contact.least_stiffness_N_m);
+  check_frame(run, contact.least_stiffness_N_m);
   use_stiffness(run, contact.stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m, touch.at.force_N);
@@ -324,6 +341,5 @@ void carry_out_approach(TestRun& run) {
       contact.stiffness_N_m > 0.0 ? contact.stiffness_N_m : contact.least_stiffness_N_m;
   run.session.expect_force(run.contact_m, run.contact_N_m);
 }
-  if (!run.has_answered) run.session.event("advice", "unanswered", kUnanswered);
 
 }  // namespace viscard

@@ -293,6 +293,37 @@ TEST_CASE("an approach that touches nothing within its limit is an error, and th
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-6));
 }
 
+TEST_CASE("a contact that is stiffer than the stated frame names the frame", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.config.frame.stiffness_N_m = 1e3;
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan());
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("stiffness under [frame]") && Contains("only 1 N/mm") &&
+                                 !Contains("modulus_guess"));
+}
+
+TEST_CASE("a force above the limit names what the test calls its load", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  RigFixture rig(options);
+  double weight_N = -1.0;  // grows in the hold; too slowly for an open wire
+  rig.sink = [&](const RunRecord& record) {
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (event != nullptr && event->name == "phase" && event->value == "creep") weight_N = 0.0;
+    if (weight_N >= 0.0 && std::holds_alternative<LoadSample>(record)) {
+      rig.emulated.hang_weight(weight_N += 0.1);
+    }
+  };
+  TestPlan plan = short_plan();
+  plan.protocol = "creep";
+  plan.creep.force_N = 0.3;
+  plan.creep.ramp_s = 2.0;
+  plan.creep.hold_s = 3.0;
+  const RunOutcome outcome = rig.run(plan);
+  CHECK(outcome.status == "stopped");
+  CHECK_THAT(outcome.reason, Contains("Lower force under [creep] of the test file"));
+}
+
 TEST_CASE("a run that is stopped before anything moved reports that the stage stands",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options());
