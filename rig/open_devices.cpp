@@ -109,6 +109,21 @@ std::unique_ptr<Transport> line_of(const char* section, const Config& device, co
   }
 }
 
+// Two names of one port, such as a link under /dev/serial/by-id and its device, are found, too.
+void check_own_ports(const RigConfig& rig) {
+  const auto refuse_same = [](const char* first, const auto& one, const char* second,
+                              const auto& other) {
+    if (one.port.empty() || real_port(one.port) != real_port(other.port)) return;
+    throw RigError(port_of(second, other) + " '" + other.port + "' is the same port as that of [" +
+                   first + "], '" + one.port +
+                   "'. Each device has its own; those present are listed by: viscard rig list");
+  };
+  refuse_same("stage", rig.stage, "load_cell", rig.load_cell);
+  if (!has_own_port(rig.thermometer)) return;
+  refuse_same("stage", rig.stage, "thermometer", rig.thermometer);
+  refuse_same("load_cell", rig.load_cell, "thermometer", rig.thermometer);
+}
+
 }  // namespace
 
 std::vector<std::string> stage_drivers() {
@@ -129,6 +144,7 @@ void check_devices(const RigConfig& rig) {
   };
   check_port("stage", rig.stage);
   check_port("load_cell", rig.load_cell);
+  check_own_ports(rig);
   const auto check_messages = [](const char* section, const auto& device) {
     if (is_usbtmc_port(device.port) && device.driver != "scpi") {
       throw RigError(port_of(section, device) + " '" + device.port +
