@@ -388,12 +388,12 @@ int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& 
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+  const bool has_answered = words.is_emulated || !rig.load_cell.answered_on.empty();
+  if (order.toward_m > 0.0 && !has_answered) streams.err << "viscard: " << kUnanswered << "\n";
   const StopOnSignal on_signal;
   RunControl control;
   control.stop = &StopOnSignal::is_asked();
   Progress progress(streams, words.what);
-  const bool has_answered = words.is_emulated || !rig.load_cell.answered_on.empty();
-  if (order.toward_m > 0.0 && !has_answered) streams.err << "viscard: " << kUnanswered << "\n";
   control.progress = [&](const RunProgress& now) {
     // Only the move itself has a planned duration; homing and the force before it have none.
     progress.show(now.phase == kMovePhase ? now.fraction : 0.0,
@@ -420,8 +420,11 @@ int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& 
   if (!moved.note.empty()) streams.err << "viscard: " << moved.note << "\n";
   if (!moved.is_stopped_by_force) return kDone;
   streams.err << fmt::format(
-      "viscard: the stage stopped before the end of its way, because the force {} by {} N\n",
-      order.toward_m > 0.0 ? "changed" : "rose or pulled", order.limit_N);
+      "viscard: the stage stopped before the end of its way, because the force {} by {} N{}\n",
+      order.toward_m > 0.0 ? "changed" : "rose or pulled", order.limit_N,
+      order.toward_m > 0.0 ? ""
+                           : ". If it went toward the specimen, toward_specimen under [stage] of "
+                             "the rig file has the wrong sign");
   return kFailed;
 }
 
