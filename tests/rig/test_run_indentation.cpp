@@ -307,12 +307,10 @@ TEST_CASE("a force above the limit names what the test calls its load", "[rig][p
   EmulatedRigOptions options = RigFixture::options();
   RigFixture rig(options);
   double weight_N = -1.0;  // grows in the hold; too slowly for an open wire
-  rig.sink = [&](const RunRecord& record) {
-    const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->name == "phase" && event->value == "creep") weight_N = 0.0;
-    if (weight_N >= 0.0 && std::holds_alternative<LoadSample>(record)) {
-      rig.emulated.hang_weight(weight_N += 0.1);
-    }
+  when_phase(rig, "creep", [&] { weight_N = 0.0; });
+  rig.on_record = [&](const RunRecord& record) {
+    if (weight_N < 0.0 || !std::holds_alternative<LoadSample>(record)) return;
+    rig.emulated.hang_weight(weight_N += 0.1);
   };
   TestPlan plan = short_plan();
   plan.protocol = "creep";
