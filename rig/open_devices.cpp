@@ -144,7 +144,6 @@ void check_devices(const RigConfig& rig) {
   };
   check_port("stage", rig.stage);
   check_port("load_cell", rig.load_cell);
-  check_own_ports(rig);
   const auto check_messages = [](const char* section, const auto& device) {
     if (is_usbtmc_port(device.port) && device.driver != "scpi") {
       throw RigError(port_of(section, device) + " '" + device.port +
@@ -159,11 +158,13 @@ void check_devices(const RigConfig& rig) {
   const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
   cell.check(rig.load_cell);
   check_thermometer_words(rig.thermometer);
-  if (rig.thermometer.driver != "load-cell" || cell.sends_lines) return;
-  throw RigError(
-      "driver = \"load-cell\" under [thermometer] of the rig file needs a load cell that "
-      "sends lines by itself; '" +
-      rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
+  if (rig.thermometer.driver == "load-cell" && !cell.sends_lines) {
+    throw RigError(
+        "driver = \"load-cell\" under [thermometer] of the rig file needs a load cell that "
+        "sends lines by itself; '" +
+        rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
+  }
+  check_own_ports(rig);
 }
 
 std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,
