@@ -21,7 +21,7 @@ constexpr int kTouchReadings = 3;
 constexpr double kDriftSigmas = 6.0;
 
 // The readings of the load cell from the connection on.
-struct Readings {
+struct TouchReadings {
   std::vector<double> force_N, made_s;
   LifeWatch life;
 };
@@ -36,7 +36,7 @@ struct CellZero {
 };
 
 // Throws what forbids a test, because it would look like a touch, too.
-CellZero zero_of(const Readings& readings, const RigConfig& rig) {
+CellZero zero_of(const TouchReadings& readings, const RigConfig& rig) {
   if (readings.force_N.size() < kFewestOfZero) {
     throw RigError("only " + counted(readings.force_N.size(), "reading") + " came in " +
                    text_from_number(kZero_s, 0) +
@@ -70,7 +70,7 @@ double await_touch(LoadCell& load_cell, const RigConfig& rig, const RigClock& cl
     if (options.stop != nullptr && *options.stop) throw RigError("the wait for a touch was ended");
   };
   load_cell.connect(pump);
-  Readings readings;
+  TouchReadings readings;
   load_cell.set_listener([&](const LoadSample& sample) {
     const double made_s = load_cell.made_at_s(sample);
     if (sample.is_saturated) readings.life.take_at_end();
