@@ -17,9 +17,9 @@ struct TouchOptions {
 };
 
 // Waits until somebody puts a finger or a weight on the load cell and takes it away again, which
-// moves nothing else. Returns the largest change of the force, N. Throws RigError if the rig at rest
-// shows what forbids a test (findings_at_rest()), and unless the force changes by more than its
-// noise and 1 % of the capacity for three readings in a row and then comes back: what drifts or
+// moves nothing else. Returns the largest change of the force, N. Throws RigError if the rig at
+// rest shows what forbids a test (findings_at_rest()), and unless the force changes by more than
+// its noise and 1 % of the capacity for three readings in a row and then comes back: what drifts or
 // jumps does not.
 double await_touch(LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
                    const TouchOptions& options);

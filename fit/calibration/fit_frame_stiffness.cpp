@@ -107,8 +107,8 @@ void refuse_bent(const Compliance& line, double seating_m, double motion_m) {
       "positions and forces in contact with a block of steel or glass");
 }
 
-// Settling ends under the first forces; a contact that stiffens does so to the largest one. noise_m2:
-// variance of a position; t: how many standard errors count.
+// Settling ends under the first forces; a contact that stiffens does so to the largest one.
+// noise_m2: variance of a position; t: how many standard errors count.
 void refuse_stiffening(const BlockPoints& points, double noise_m2, double t) {
   const auto [low, high] = std::minmax_element(points.force_N.begin(), points.force_N.end());
   const double half_N = 0.5 * (*high - *low);

@@ -67,8 +67,8 @@ TEST_CASE("numbers with a decimal point and no unit are read as volts, and the a
 
 namespace {
 
-// Touches the load cell of a rig whose force changes as asked while it listens: what the weight is at
-// a time since the connection, N.
+// Touches the load cell of a rig whose force changes as asked while it listens: what the weight is
+// at a time since the connection, N.
 double touched(double (*weight_N)(double since_ready_s, bool is_ready)) {
   RigFixture rig(RigFixture::options());
   double ready_s = 0.0;
