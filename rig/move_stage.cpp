@@ -100,6 +100,11 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
                                                          order.speed_m_s, "lift", order.limit_N);
     moved.force_after_N = moved.force_before_N + session.mean_force(kRest_s).force_N;
     moved.to_m = stage.position_m();
+    const bool has_answered = control.has_answered || !rig.load_cell.answered_on.empty();
+    if (is_toward && !moved.is_stopped_by_force && !has_answered) {
+      moved.note += (moved.note.empty() ? "" : "; ") +
+                    std::string("the whole way is gone and no force was felt, but ") + kUnanswered;
+    }
   } catch (const RigError& error) {
     const bool is_asked_for = dynamic_cast<const RunInterrupted*>(&error) != nullptr;
     // A force above the limit that presses at rest is what a lift ends.

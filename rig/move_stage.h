@@ -31,7 +31,7 @@ struct StageMoved {
   bool is_stopped_by_force = false;
   // From which a person counts positions: that of the rig file, if the controller keeps its own zero.
   std::optional<double> zero_m;
-  std::string note;  // what a person must know of the position from now on; may be empty
+  std::string note;  // what a person must know of position and cell from now on; may be empty
 };
 
 // A move that ended early, with the stage at rest where it stands.

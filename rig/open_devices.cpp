@@ -109,6 +109,21 @@ std::unique_ptr<Transport> line_of(const char* section, const Config& device, co
   }
 }
 
+// Two names of one port, such as a link under /dev/serial/by-id and its device, are found, too.
+void check_own_ports(const RigConfig& rig) {
+  const auto refuse_same = [](const char* first, const auto& one, const char* second,
+                              const auto& other) {
+    if (one.port.empty() || real_port(one.port) != real_port(other.port)) return;
+    throw RigError(port_of(second, other) + " '" + other.port + "' is the same port as that of [" +
+                   first + "], '" + one.port +
+                   "'. Each device has its own; those present are listed by: viscard rig list");
+  };
+  refuse_same("stage", rig.stage, "load_cell", rig.load_cell);
+  if (!has_own_port(rig.thermometer)) return;
+  refuse_same("stage", rig.stage, "thermometer", rig.thermometer);
+  refuse_same("load_cell", rig.load_cell, "thermometer", rig.thermometer);
+}
+
 }  // namespace
 
 std::vector<std::string> stage_drivers() {
@@ -143,11 +158,13 @@ void check_devices(const RigConfig& rig) {
   const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
   cell.check(rig.load_cell);
   check_thermometer_words(rig.thermometer);
-  if (rig.thermometer.driver != "load-cell" || cell.sends_lines) return;
-  throw RigError(
-      "driver = \"load-cell\" under [thermometer] of the rig file needs a load cell that "
-      "sends lines by itself; '" +
-      rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
+  if (rig.thermometer.driver == "load-cell" && !cell.sends_lines) {
+    throw RigError(
+        "driver = \"load-cell\" under [thermometer] of the rig file needs a load cell that "
+        "sends lines by itself; '" +
+        rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
+  }
+  check_own_ports(rig);
 }
 
 std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,

@@ -174,6 +174,11 @@ void advise(const RigConfig& rig, const RestReadings& seen, RigCheck& check) {
                    counted(static_cast<std::size_t>(check.stream.unreadable), "line") +
                    " unreadable: check the cable");
   }
+  if (2 * check.stream.duplicate > check.stream.received) {
+    add(false,
+        "each line of the load cell comes twice, with the same time, and counts once. Look for a "
+        "second print in the program of its board");
+  }
   if (check.reads_as == "volts" && rig.load_cell.line_format == "auto") {
     add(false,
         "numbers with a decimal point and without a unit are read as volts: set line_format = "

@@ -53,6 +53,7 @@ class IndentationRun {
     for (std::size_t i = 0; i < run_.phases.size(); ++i) {
       const TestPhase& phase = run_.phases[i];
       name_ = phase.name;
+      if (!phase.load_key.empty()) run_.session.set_load_key(phase.load_key);
       run_.session.begin_phase(phase.name, planned_from_s(i), phase.text);
       carry_out(phase);
       const double lag_s = run_.session.take_lag_s();
@@ -300,6 +301,7 @@ RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& r
   RunSession session(stage, load_cell, rig, safe_sink, control);
   TestRun run{session, rig, plan, specimen, phases_from_plan(plan), {}};
   run.lifts_at_start = control.lifts_at_start;
+  run.has_answered = control.has_answered || !rig.load_cell.answered_on.empty();
   IndentationRun phases(run);
   const auto carry_out = [&](const std::function<void()>& part) {
     try {

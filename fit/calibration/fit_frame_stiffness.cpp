@@ -19,14 +19,16 @@ constexpr double kLongestSeating = 0.5;  // F_s over the largest force
 constexpr double kSeatingStep = 1.15;    // of F_s in its search
 constexpr double kWorst = 0.2;           // half of the interval of 1/k, relative
 constexpr double kBentShare = 0.1;       // largest deviation from the line over the whole motion
-constexpr double kSeatedShare = 0.25;    // seating over the whole motion
+constexpr double kSeatedShare = 0.1;     // seating over the whole motion
+constexpr double kMostSeating_m = 10e-6;
+constexpr double kStiffening = 0.03;  // change of the compliance over the upper half of the forces
 
 // Position over force, from a least-squares fit with or without a settling part.
 struct Compliance {
   double per_N = 0.0;     // m/N
   double variance = 0.0;  // of per_N, for a variance of 1 of each position
   double squares = 0.0;   // of the residuals
-  double seating_m = 0.0;
+  double seating_m = 0.0, seating_variance = 0.0;
   double largest_residual_m = 0.0;
 };
 
@@ -57,6 +59,7 @@ Compliance compliance_of(const BlockPoints& points, const std::vector<double>& s
   found.seating_m = has_seating ? (xx * zy - xz * xy) / determinant : 0.0;
   found.per_N = (xy - xz * found.seating_m) / xx;
   found.variance = has_seating ? zz / determinant : 1.0 / xx;
+  found.seating_variance = has_seating ? xx / determinant : 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const double rest = y(i) - found.per_N * x(i) - found.seating_m * z(i);
     found.squares += rest * rest;
@@ -88,18 +91,46 @@ std::vector<Compliance> candidates(const BlockPoints& points) {
 namespace {
 
 // A frame on a rigid block gives way in proportion to the force; a soft specimen, or a way in air, does not.
+// The settling part follows the course of a round or tilted contact, too, so a large one is none.
 void refuse_bent(const Compliance& line, double seating_m, double motion_m) {
-  const bool is_seated = seating_m > kSeatedShare * motion_m;
+  const bool is_seated = seating_m > std::min(kSeatedShare * motion_m, kMostSeating_m);
   if (!is_seated && line.largest_residual_m <= kBentShare * motion_m) return;
   const auto um = [](double length_m) { return text_of(1e6 * length_m, 3) + " um"; };
   throw std::runtime_error(
       (is_seated ? "the block settled by " + um(seating_m) + " (seating)"
                  : "the positions leave a straight line by " + um(line.largest_residual_m)) +
       " of a motion of " + um(motion_m) + "; at most " +
-      text_of(100.0 * (is_seated ? kSeatedShare : kBentShare), 2) +
-      " % is allowed: this is no frame on a rigid block. Is a soft specimen under the punch, or do "
-      "the readings begin out of contact? Give positions and forces in contact with a block of "
-      "steel or glass");
+      text_of(100.0 * (is_seated ? kSeatedShare : kBentShare), 2) + " %" +
+      (is_seated ? " and " + um(kMostSeating_m) : "") +
+      " is allowed: this is no frame on a rigid block. Clamp a block that rocks or is not seated; "
+      "is a soft or round specimen under the punch, or do the readings begin out of contact? Give "
+      "positions and forces in contact with a block of steel or glass");
+}
+
+// Settling ends under the first forces; a contact that stiffens does so to the largest one.
+// noise_m2: variance of a position; t: how many standard errors count.
+void refuse_stiffening(const BlockPoints& points, double noise_m2, double t) {
+  const auto [low, high] = std::minmax_element(points.force_N.begin(), points.force_N.end());
+  const double half_N = 0.5 * (*high - *low);
+  BlockPoints upper;
+  std::vector<double> square;
+  for (std::size_t i = 0; i < points.force_N.size(); ++i) {
+    const double above_N = points.force_N[i] - *high + half_N;
+    if (above_N < 0.0) continue;
+    upper.force_N.push_back(points.force_N[i]);
+    upper.position_m.push_back(points.position_m[i]);
+    square.push_back((above_N - 0.5 * half_N) * (above_N - 0.5 * half_N));
+  }
+  if (upper.force_N.size() < 3) return;
+  const Compliance bent = compliance_of(upper, square);
+  const double change = -2.0 * half_N * bent.seating_m;
+  const double u = 2.0 * half_N * std::sqrt(bent.seating_variance * noise_m2);
+  if (!(change - 2.0 * t * u > kStiffening * bent.per_N)) return;
+  throw std::runtime_error(
+      "the contact stiffens by " + text_of(100.0 * change / bent.per_N, 2) +
+      " % over the upper half of the forces; at most " + text_of(100.0 * kStiffening, 2) +
+      " % is allowed: the block is not seated (its seating does not end), or it is no stiff block. "
+      "Clamp it, press it once with the full force, and measure again");
 }
 
 }  // namespace
@@ -149,6 +180,7 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
   FrameStiffnessFit fit;
   fit.seating_m = rise(line) > t * t ? best.seating_m : 0.0;
   refuse_bent(line, fit.seating_m, *high_m - *low_m);
+  refuse_stiffening(points, noise_m2, t);
   const double middle = 0.5 * (low + high);
   const double half_width = 0.5 * (high - low) / middle;
   if (!(half_width < kWorst && middle > 0.0)) {

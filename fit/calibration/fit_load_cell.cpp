@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +15,9 @@
 namespace viscard {
 namespace {
 
+constexpr double kMostSpread = 0.01;    // largest minus smallest gain of the series, relative
+constexpr double kWholeSeries = 0.25;   // of the widest series: one that shows its gain, too
+constexpr double kLeastReading = 1e-9;  // of the largest one: a smaller change is rounding
 constexpr double kSame = 1e-6;  // relative to the largest load; loads that differ by less are equal
 
 struct Point {
@@ -70,6 +74,7 @@ std::vector<Point> points_of(const WeightReadings& data, double largest_N) {
 
 struct Line {
   double gain = 0.0;
+  std::vector<double> gains;  // of each series with enough weights
   std::vector<double> zeros;  // of each series
   double sum_xx = 0.0;        // within series
   // Force from the mean of its series, and what a line through the readings leaves of its square.
@@ -88,7 +93,7 @@ Line line_through(const WeightReadings& data, const std::vector<Point>& points) 
     count[s] += 1.0;
   }
   Line line;
-  double sum_xy = 0.0;
+  std::vector<double> sum_xy(n_series), sum_xx(n_series);
   for (std::size_t s = 0; s < n_series; ++s) {
     mean_x[s] /= count[s];
     mean_y[s] /= count[s];
@@ -98,7 +103,8 @@ Line line_through(const WeightReadings& data, const std::vector<Point>& points) 
     const auto s = static_cast<std::size_t>(points[i].series);
     const double dx = data.force_N[i] - mean_x[s];
     line.sum_xx += dx * dx;
-    sum_xy += dx * (data.reading[i] - mean_y[s]);
+    sum_xx[s] += dx * dx;
+    sum_xy[s] += dx * (data.reading[i] - mean_y[s]);
     line.centred.push_back(dx);
     line.square.push_back(data.force_N[i] * data.force_N[i] - mean_xx[s]);
     line.square_slope += dx * line.square.back();
@@ -107,11 +113,41 @@ Line line_through(const WeightReadings& data, const std::vector<Point>& points) 
   for (std::size_t i = 0; i < points.size(); ++i) {
     line.square[i] -= line.square_slope * line.centred[i];
   }
-  line.gain = sum_xy / line.sum_xx;
+  line.gain = std::accumulate(sum_xy.begin(), sum_xy.end(), 0.0) / line.sum_xx;
+  const double widest = *std::max_element(sum_xx.begin(), sum_xx.end());
+  for (std::size_t s = 0; s < n_series; ++s) {
+    if (sum_xx[s] > kWholeSeries * widest) line.gains.push_back(sum_xy[s] / sum_xx[s]);
+  }
   for (std::size_t s = 0; s < n_series; ++s) {
     line.zeros.push_back(mean_y[s] - line.gain * mean_x[s]);
   }
   return line;
+}
+
+// Standard deviation of the gains of the series, relative. The readings of one series share what
+// changes between series, so their number does not reduce it.
+double reproducibility_of(const Line& line) {
+  if (line.gains.size() < 2) return 0.0;
+  const auto n = static_cast<double>(line.gains.size());
+  const double mean = std::accumulate(line.gains.begin(), line.gains.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double gain : line.gains) squares += (gain - mean) * (gain - mean);
+  return std::sqrt(squares / (n - 1.0)) / std::abs(line.gain);
+}
+
+void refuse_spread(const Line& line) {
+  const auto [low, high] = std::minmax_element(line.gains.begin(), line.gains.end());
+  const double spread = (*high - *low) / std::abs(line.gain);
+  if (spread <= kMostSpread) return;
+  std::string gains;
+  for (std::size_t s = 0; s < std::min<std::size_t>(line.gains.size(), 6); ++s) {
+    gains += (s == 0 ? "" : ", ") + text_of(line.gains[s], 5);
+  }
+  throw std::runtime_error(
+      "the gain differs by " + text_of(100.0 * spread, 2) + " % between the series (" + gains +
+      " per N); at most " + text_of(100.0 * kMostSpread, 2) +
+      " % is allowed. Is a weight of one series wrong, or did the amplifier still warm up? Repeat "
+      "all series with the same weights, after half an hour with everything switched on");
 }
 
 // Mean and spread of the residuals at one load in one direction.
@@ -201,8 +237,10 @@ void add_budget(const WeightReadings& data, const Groups& groups, const Line& li
   fit.parabola = shape.per_N2 / per_parabola;
   fit.parabola_se = shape.per_N2_se / std::abs(per_parabola);
   fit.parabola_allowed = allowed_parabola(fit, data.nonlinearity.value_or(kUsualNonlinearity));
-  const double regression =
+  const double of_readings =
       reading_u(data, shape, fit) / std::sqrt(line.sum_xx) / std::abs(fit.gain);
+  const double of_series = reproducibility_of(line);
+  const double regression = std::max(of_readings, of_series);
   const double departure = departure_from_parabola(groups, line, points, fit) / root3;
   const double resolution = data.resolution / std::abs(fit.full_reading) / std::sqrt(12.0);
   LoadCellCalibration& cell = fit.calibration;
@@ -226,8 +264,9 @@ void add_budget(const WeightReadings& data, const Groups& groups, const Line& li
   fit.budget = {
       {"weights", data.force_relative_u, "masses and local gravity, as stated"},
       {"regression", regression,
-       fit.has_repeatability ? "repeatability of the readings through the line"
-                             : "scatter about the line; one series shows no repeatability"},
+       of_series > of_readings ? "reproducibility: the series differ in their gain"
+       : fit.has_repeatability ? "repeatability of the readings through the line"
+                               : "scatter about the line; one series shows no repeatability"},
       {"nonlinearity", std::hypot(curvature, departure),
        "parabola of up to " + text_of(100.0 * fit.parabola_allowed, 2) + " % of the capacity, at " +
            text_of(fit.in_use_N, 3) + (is_shown ? " N; U-shaped" : " N; rectangular")},
@@ -252,11 +291,14 @@ LoadCellFit fit_load_cell(const WeightReadings& data) {
   fit.gain = line.gain;
   fit.n_series = static_cast<int>(line.zeros.size());
   fit.full_reading = line.gain * fit.largest_force_N;
-  if (!(std::abs(fit.full_reading) > 0.0)) {
+  const auto [lowest, highest] = std::minmax_element(data.reading.begin(), data.reading.end());
+  const double largest = std::max(std::abs(*lowest), std::abs(*highest));
+  if (!(std::abs(fit.full_reading) > kLeastReading * largest)) {
     throw std::invalid_argument(
         "the readings do not change with the weights. Is the load cell "
         "connected, and do the weights hang on it?");
   }
+  refuse_spread(line);
   Groups groups;
   for (const double zero : line.zeros) fit.zero += zero / fit.n_series;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -48,11 +48,12 @@ struct LoadCellFit {
 // Nonlinearity is the largest deviation of the mean of rising and falling load from the line.
 // Hysteresis is the largest difference of the two. Repeatability is the pooled standard deviation
 // of the same load in the same direction over the series. The uncertainty budget of the gain (JCGM
-// 100:2008, 4.3 and 5.1; fit/calibration/README.md) holds the weights, the regression, the curvature
-// that the readings or the data sheet allow at the force of use, half the hysteresis and the
+// 100:2008, 4.3 and 5.1; fit/calibration/README.md) holds the weights, the regression (at least the standard
+// deviation of the gains of the series, whatever their number), the curvature that the readings or the data sheet allow at the force of use, half the hysteresis and the
 // resolution. k = 2 for the interval at 95 %. Sources: ISO 376:2011, 7.5, 8 and annex C; EURAMET cg-4
 // (2011), ch. 6. Throws std::invalid_argument that names what is missing, unless there are three
-// different loads, one of them zero, with as many finite readings as loads.
+// different loads, one of them zero, with as many finite readings as loads, and std::runtime_error if the gains of the series
+// differ by more than 1 %.
 LoadCellFit fit_load_cell(const WeightReadings& readings);
 
 // Weight in N of a mass in air: m g (1 - rho_air/rho_mass), with the densities that define

@@ -180,6 +180,12 @@ void check_before_use(const RigConfig& rig, const std::string& toml, const std::
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
   }
+  if (const std::string fault = depth_fault(rig.stage); !fault.empty()) {
+    const std::string key = "stage.depth_relative_u";
+    const int line = line_of_key(toml, key);
+    throw std::runtime_error(name + (line > 0 ? ":" + std::to_string(line) : "") + ": " + key +
+                             ": " + fault);
+  }
   if (!rig.calibration.file.empty()) return;  // the record is checked once it has been read
   if (const auto fault = calibration_fault(rig.calibration, reading_span(cell))) {
     const std::string key = "calibration." + fault->key;

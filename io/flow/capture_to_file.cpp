@@ -97,7 +97,9 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   control.reading = watch.reading;
   control.lifts_at_start = request.lifts_at_start;
   control.thermometer = devices.thermometer.get();
+  control.has_answered = setup.truth.has_value();
   if (request.homing != nullptr) {
+    control.has_answered |= request.homing->has_answered;
     control.homed_before = request.homing->homed;
     control.homes_after = request.homing->is_last && !request.homing->is_doubtful;
   }
@@ -112,6 +114,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig
   close_file(writer, outcome);
   if (request.homing != nullptr) {
     request.homing->has_homed = true;
+    request.homing->has_answered |= outcome.contact_position_m.has_value();
     request.homing->homed = outcome.homed;
     request.homing->is_doubtful |= outcome.status != "finished" || !outcome.doubts.empty();
   }

@@ -33,6 +33,7 @@ struct SeriesHoming {
   bool is_last = true;  // the run that comes next
   bool is_doubtful = false;
   bool has_homed = false;           // an earlier run
+  bool has_answered = false;        // the load cell, to the contact of an earlier run
   std::optional<HomedStage> homed;  // if its driver compares the count
   // Of an emulated stage: what it has lost so far, and where it counts itself on its bench.
   double emulated_lost_m = 0.0, emulated_counted_m = 0.0;

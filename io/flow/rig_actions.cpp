@@ -5,7 +5,7 @@
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
-#include "rig/touch_cell.h"
+#include "rig/run/rest_findings.h"
 
 #include <fmt/format.h>
 
@@ -129,6 +129,9 @@ RigCheck check_rig_config(const RigConfig& rig, bool is_emulated, double seconds
   devices.stage->keep_locked();
   RigCheck found = check_rig(*devices.stage, *devices.load_cell, open.config(), open.clock(),
                              seconds, devices.thermometer.get());
+  if (!is_emulated && found.is_proven && rig.load_cell.answered_on.empty()) {
+    found.advice.push_back(kUnanswered);
+  }
   if (!rig.stage.home) return found;
   const std::string trouble = devices.stage->trouble_with_count_check([&] {
     wait_readable({devices.stage_line.get()}, open.clock(), 0.005);
@@ -153,16 +156,20 @@ void add_calibration(const RigConfig& rig, RigCheck& found) {
   if (!last_valid_day(rig.calibration).empty()) found.is_usable = false;
 }
 
-double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
-                 const std::function<void()>& ready, const std::atomic<bool>* stop) {
+double touch_rig(const RigConfig& rig, bool is_emulated, const TouchOptions& asked) {
   OpenRig open(rig, is_emulated);
-  TouchOptions options;
-  options.wait_s = wait_s;
-  options.stop = stop;
+  TouchOptions options = asked;
+  const auto hang = [&](double share) {
+    if (open.emulated() == nullptr) return;
+    open.emulated()->hang_weight(share * open.config().calibration.capacity_N);
+  };
   options.ready = [&] {
-    if (ready) ready();
-    if (open.emulated() != nullptr)
-      open.emulated()->hang_weight(0.1 * open.config().calibration.capacity_N);
+    if (asked.ready) asked.ready();
+    hang(0.1);
+  };
+  options.felt = [&] {
+    if (asked.felt) asked.felt();
+    hang(0.0);
   };
   return await_touch(*open.devices().load_cell, open.config(), open.clock(), options);
 }
@@ -245,6 +252,7 @@ StageMoved move_rig_stage(RigConfig rig, bool is_emulated, const StageOrder& ord
   const double from_m = is_emulated && position_m != nullptr ? position_m->value_or(0.0) : 0.0;
   OpenRig open(rig, is_emulated, from_m);
   control.clock = &open.clock();
+  control.has_answered = is_emulated;
   if (position_m != nullptr && !is_emulated) position_m->reset();  // not known until it is read
   Stage& stage = *open.devices().stage;
   StageMoved moved;

@@ -4,6 +4,7 @@
 #include "rig/move_stage.h"
 #include "rig/rig_check.h"
 #include "rig/run/run_control.h"
+#include "rig/touch_cell.h"
 #include "rig/weigh.h"
 #include "rig/zero_force.h"
 
@@ -27,10 +28,9 @@ RigCheck check_rig_config(const RigConfig& rig, bool is_emulated, double seconds
 void add_calibration(const RigConfig& rig, RigCheck& found);
 
 // Listens to the load cell of a rig (or of an emulated one, which gets a weight of a tenth of its
-// capacity) until it answers a finger or a weight; moves nothing. Returns the force, N. Throws
+// capacity) until it has answered a finger or a weight; moves nothing. Returns the force, N. Throws
 // RigError as await_touch() does.
-double touch_rig(const RigConfig& rig, bool is_emulated, double wait_s,
-                 const std::function<void()>& ready, const std::atomic<bool>* stop);
+double touch_rig(const RigConfig& rig, bool is_emulated, const TouchOptions& asked);
 
 // Writes answered_on = DAY under [load_cell] of a rig file and changes nothing else of it. Throws
 // std::runtime_error if the file has no such section or cannot be written.

@@ -118,11 +118,19 @@ std::string frame_fault(const FrameConfig& frame) {
          text_of(frame.stiffness_relative_u, 3) + "; expected a share below 1, such as 0.02";
 }
 
+std::string depth_fault(const StageConfig& stage) {
+  if (stage.depth_relative_u < 1.0) return {};
+  return "the relative standard uncertainty of the depth is " + text_of(stage.depth_relative_u, 3) +
+         "; expected a share below 1, such as 0.005";
+}
+
 void require_believable(const RigConfig& rig) {
   validate(rig.calibration);
   if (const auto fault = calibration_fault(rig.calibration, reading_span(rig.load_cell))) {
     throw std::invalid_argument("calibration." + fault->key + ": " + fault->text);
   }
+  const std::string depth = depth_fault(rig.stage);
+  if (!depth.empty()) throw std::invalid_argument("stage.depth_relative_u: " + depth);
   const std::string frame = frame_fault(rig.frame);
   if (!frame.empty()) throw std::invalid_argument("frame: " + frame);
 }

@@ -31,6 +31,9 @@ std::optional<CalibrationFault> calibration_fault(const LoadCellCalibration& cal
 // Why no frame has this stiffness (0: rigid), or "".
 std::string frame_fault(const FrameConfig& frame);
 
+// Why no stage counts its depth so badly (depth_relative_u), or "".
+std::string depth_fault(const StageConfig& stage);
+
 // Throws std::invalid_argument "calibration.KEY ..." for such a rig, and whatever validate() refuses.
 void require_believable(const RigConfig& rig);
 

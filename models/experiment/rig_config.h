@@ -63,8 +63,8 @@ struct LoadCellConfig {
   // counts or volts, and gauges are set to N.
   std::string unit;
   std::string framing = "8N1";  // data bits, parity (N E O), stop bits
-  // ISO 8601: the day on which it answered a finger or a weight. Needed only if the last digit of
-  // its readings hides their noise, because equal readings then do not show whether it measures.
+  // ISO 8601: the day on which it answered a finger or a weight. Without it a run warns; required
+  // if the last digit of its readings hides their noise, because equal readings then prove nothing.
   std::string answered_on;
   std::string port_place;  // as of the stage
 };

@@ -96,6 +96,7 @@ void add_creep(const TestPlan& plan, std::vector<TestPhase>& phases) {
                "tolerance under [creep] must be between 0 and the force");
   phases.push_back(by_force(Kind::kLoad, "ramp", "ramp", creep.force_N, creep.ramp_s, 0.0,
                             "force under [creep]", "To the force"));
+  phases.back().speed_key = "duration under [creep]";
   phases.push_back(by_force(Kind::kHoldForce, "creep", "creep", creep.force_N, 0.0, creep.hold_s,
                             "force under [creep]", "Creep under constant force"));
 }

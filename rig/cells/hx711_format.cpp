@@ -16,6 +16,7 @@ constexpr double kLargest_V = 100.0;
 constexpr double kMost = 0.8;        // of the steps of a clock; the others are resets and faults
 constexpr double kNotGrowing = 0.4;  // of the steps of a number that is no clock, at least
 constexpr std::size_t kFewestNotGrowing = 3;
+constexpr double kMostRepeats = 0.7;  // of the steps: each line twice makes half of them 0
 constexpr double kTickUnits_s[] = {1e-6, 1e-3};
 constexpr Hx711Format kTickFormats[] = {Hx711Format::kMicrosCounts, Hx711Format::kMillisCounts};
 
@@ -67,20 +68,31 @@ bool most_are_about(const std::vector<double>& steps, double expected, double fa
   return static_cast<double>(n_good) >= kMost * static_cast<double>(steps.size());
 }
 
+std::size_t number_of(const std::vector<double>& steps, bool (*is_one)(double)) {
+  return static_cast<std::size_t>(std::count_if(steps.begin(), steps.end(), is_one));
+}
+
+// A line that was sent twice has one time.
+std::vector<double> without_repeats(std::vector<double> steps) {
+  steps.erase(std::remove(steps.begin(), steps.end(), 0.0), steps.end());
+  return steps;
+}
+
 std::optional<Hx711Format> clock_format(const Window& window, double rate_Hz) {
-  if (window.steps.size() + 1 < kFewestLines) return std::nullopt;
+  const std::vector<double> steps = without_repeats(window.steps);
+  if (steps.size() + 1 < kFewestLines) return std::nullopt;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (most_are_about(window.steps, 1.0 / (kTickUnits_s[i] * rate_Hz), 10.0 / 3.0)) {
+    if (most_are_about(steps, 1.0 / (kTickUnits_s[i] * rate_Hz), 10.0 / 3.0)) {
       return kTickFormats[i];
     }
   }
   if (window.n_lines < kMostLines) return std::nullopt;
   // If the expected rate is wrong, the steps are nevertheless even, and as long as those of the
   // arrivals.
-  std::vector<double> sorted = window.steps;
+  std::vector<double> sorted = steps;
   std::sort(sorted.begin(), sorted.end());
   const double median = sorted[sorted.size() / 2];
-  if (!most_are_about(window.steps, median, 2.0)) return std::nullopt;
+  if (!most_are_about(steps, median, 2.0)) return std::nullopt;
   for (std::size_t i = 0; i < 2; ++i) {
     const double step_s = median * kTickUnits_s[i];
     if (most_are_about({step_s}, window.arrival_step_s, 5.0)) return kTickFormats[i];
@@ -92,8 +104,11 @@ std::optional<Hx711Format> clock_format(const Window& window, double rate_Hz) {
 bool is_surely_no_clock(const Window& window) {
   if (window.n_timed == 0) return true;
   if (window.n_lines >= kMostLines && 4 * window.n_timed < window.n_lines) return true;
-  const auto n = static_cast<std::size_t>(std::count_if(window.steps.begin(), window.steps.end(),
-                                                        [](double step) { return step <= 0.0; }));
+  const std::size_t n_zero = number_of(window.steps, [](double step) { return step == 0.0; });
+  const std::size_t n = n_zero + number_of(window.steps, [](double step) { return step < 0.0; });
+  const auto most_repeats =
+      static_cast<std::size_t>(kMostRepeats * static_cast<double>(window.steps.size()));
+  if (window.n_lines < kMostLines && n == n_zero && n <= most_repeats) return false;
   return n >= kFewestNotGrowing &&
          static_cast<double>(n) >= kNotGrowing * static_cast<double>(window.steps.size());
 }

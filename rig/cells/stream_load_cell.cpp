@@ -30,7 +30,8 @@ bool StreamLoadCell::await_readings(const Pump& pump, double wall_s, bool is_tex
   const std::string where = "'" + transport_.name() + "'";
   if (n_bytes() == 0) {
     throw RigError("nothing came from the load cell on " + where +
-                   ". Is this its port, and is the amplifier switched on?");
+                   ". Is this its port (not swapped with that of the stage), and is the "
+                   "amplifier switched on?");
   }
   if (is_text && splitter_.unprintable_fraction() > 0.2) {
     throw RigError("the bytes from the load cell on " + where +

@@ -110,6 +110,11 @@ bool is_usbtmc_port(const std::string& port) {
   return fs::weakly_canonical(port, ignored).filename().string().rfind("usbtmc", 0) == 0;
 }
 
+std::string real_port(const std::string& port) {
+  std::error_code ignored;
+  return is_tcp_port(port) ? port : fs::weakly_canonical(port, ignored).string();
+}
+
 std::vector<std::string> present_ports() {
   std::vector<std::string> ports;
   std::vector<std::string> covered;  // devices that a stable name already names

@@ -19,6 +19,9 @@ struct PortStatus {
 };
 PortStatus port_status(const std::string& path);
 
+// The device behind a name of a port; a TCP port has one name only.
+std::string real_port(const std::string& port);
+
 // True for a device file of the kernel's usbtmc driver, also behind a link with another name.
 bool is_usbtmc_port(const std::string& port);
 

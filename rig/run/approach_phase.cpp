@@ -2,6 +2,7 @@
 
 #include "models/maths/text_of_number.h"
 #include "rig/run/preflight.h"
+#include "rig/run/rest_findings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,13 +42,26 @@ double contact_threshold_N(TestRun& run) {
   return threshold_N;
 }
 
-// Observations that distinguish the three causes for a person at the rig.
+// Observations that distinguish the causes for a person at the rig. A punch that may press already
+// must not be brought nearer, so the load cell comes first.
 std::string nothing_touched_text(const TestRun& run) {
   const int sign = run.rig.stage.toward_specimen;
+  const std::string& day = run.rig.load_cell.answered_on;
+  const std::string cell =
+      "with a finger: viscard rig touch --rig FILE. If it does not answer, a wire of its "
+      "excitation or signal is open, which its noise does not show. ";
   return "nothing was touched within " + text_from_number(run.plan.approach_limit_m * 1e3, 2) +
-         " mm. If the punch came nearer, bring it nearer to the specimen before the start, or "
-         "raise limit under [approach] of the test file. If it moved away, set toward_specimen = " +
-         std::to_string(-sign) + " under [stage] of the rig file (it is " + std::to_string(sign) +
+         " mm. " +
+         (run.has_answered
+              ? "If the punch stands above the specimen, bring it nearer before the start, or "
+                "raise limit under [approach] of the test file. If it stood on it, touch the load "
+                "cell" +
+                    (day.empty() ? "" : ", which answered on " + day + ",") + " " + cell
+              : "The load cell has shown no force yet, so the punch may have pressed unnoticed. "
+                "Touch the cell first " +
+                    cell) +
+         "If the punch moved away, set toward_specimen = " + std::to_string(-sign) +
+         " under [stage] of the rig file (it is " + std::to_string(sign) +
          "). If it did not move at all, the motor is dead: check its supply, its cable and the "
          "enable input of its driver";
 }
@@ -165,19 +179,36 @@ void use_stiffness(TestRun& run, double total_N_m) {
                                   : std::numeric_limits<double>::infinity();
   const double peak_N = specimen_N_m * depth_m;
   if (peak_N > limit_N(run)) {
-    run.session.event(
-        "advice", "stiffness",
-        "The specimen is stiffer than modulus_guess says: the whole depth would need " +
-            (std::isfinite(peak_N) ? text_from_number(peak_N, 2) + " N, more than the "
-                                   : std::string("far more than the ")) +
-            text_from_number(limit_N(run), 2) +
-            " N allowed. The punch goes less deep; lower the depth, or correct modulus_guess");
+    const std::string needs =
+        std::isfinite(peak_N)
+            ? "The specimen is stiffer than modulus_guess says: the whole depth would need " +
+                  text_from_number(peak_N, 2) + " N, more than the "
+            : "The contact is as stiff as the frame alone, so stiffness under [frame] of the rig "
+              "file may be too low; otherwise the whole depth would need far more than the ";
+    run.session.event("advice", "stiffness",
+                      needs + text_from_number(limit_N(run), 2) +
+                          " N allowed. The punch goes less deep; lower the depth, or correct " +
+                          (std::isfinite(peak_N) ? "modulus_guess" : "one of the two"));
     return;
   }
   const double before = expected.travel_per_depth;
   expected.travel_per_depth = 1.0 + specimen_N_m / frame_N_m;
   expected.stage_travel_m *= expected.travel_per_depth / before;
   expected.ramp_speed_m_s *= expected.travel_per_depth / before;
+}
+
+// Specimen and frame in series are softer than the frame, however stiff the specimen. A run that
+// measures the frame does not know it.
+void check_frame(const TestRun& run, double least_N_m) {
+  if (run.plan.protocol == "compliance") return;
+  const FrameConfig& frame = run.rig.frame;
+  const double most_N_m = frame.stiffness_N_m * (1.0 + 2.0 * frame.stiffness_relative_u);
+  if (!(frame.stiffness_N_m > 0.0) || least_N_m <= most_N_m) return;
+  throw RigError("the contact is at least " + text_of(least_N_m * 1e-3, 3) +
+                 " N/mm stiff, and stiffness under [frame] of the rig file is only " +
+                 text_of(frame.stiffness_N_m * 1e-3, 3) +
+                 " N/mm, which nothing in series with it can exceed. Measure the frame with: "
+                 "viscard calibrate --compliance --rig FILE");
 }
 
 // A punch that presses must raise the force.
@@ -295,17 +326,19 @@ void back_off(TestRun& run, double contact_m, double touched_N) {
 }  // namespace
 
 void carry_out_approach(TestRun& run) {
+  if (!run.has_answered) run.session.event("advice", "unanswered", kUnanswered);
   const Touch first = touched_in_compression(run, contact_threshold_N(run));
   const Touch touch = pressed_further(run, first);
   const ContactEstimate contact = contact_from_stops(
       touch.before, touch.at, run.outcome.noise_N, 1.0 / run.session.stage().dynamics().steps_per_m,
       run.outcome.expected.total_stiffness_N_m);
   run.session.expect_stiffness(contact.least_stiffness_N_m);
+  check_frame(run, contact.least_stiffness_N_m);
   use_stiffness(run, contact.stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m, touch.at.force_N);
   // It rose when the stage pressed, and went when the stage lifted.
-  run.is_proven = true;
+  run.is_proven = run.has_answered = true;
   run.contact_N_m =
       contact.stiffness_N_m > 0.0 ? contact.stiffness_N_m : contact.least_stiffness_N_m;
   run.session.expect_force(run.contact_m, run.contact_N_m);

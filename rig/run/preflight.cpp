@@ -148,7 +148,8 @@ void check_rates(const RigConfig& rig, const TestPlan& plan, const std::vector<T
     check_rise_between_readings(rig, phases, result);
   }
   for (const TestPhase& phase : phases) {
-    if (phase.kind != TestPhase::Kind::kMove || !(phase.move_s > 0.0)) continue;
+    const bool is_timed = phase.kind == TestPhase::Kind::kMove || !phase.speed_key.empty();
+    if (!is_timed || !(phase.move_s > 0.0)) continue;
     if (phase.move_s * rate_Hz >= kFewestRampReadings) continue;
     result.warnings.push_back("the move '" + phase.name + "' of " +
                               text_from_number(phase.move_s, 2) + " s holds only " +
@@ -160,14 +161,16 @@ void check_rates(const RigConfig& rig, const TestPlan& plan, const std::vector<T
   }
 }
 
-// The moves to a depth in a given time must not need a speed above the largest one.
+// The moves to a depth or force in a given time must not need a speed above the largest one.
 void check_speeds(const std::vector<TestPhase>& phases, const StageDynamics& dynamics,
                   Preflight& result) {
   double before_m = 0.0;
   for (const TestPhase& phase : phases) {
-    if (phase.kind != TestPhase::Kind::kMove) continue;
-    const double way_m = std::abs(result.stage_travel_of(phase.depth_m - before_m));
-    before_m = phase.depth_m;
+    const bool is_load = phase.kind == TestPhase::Kind::kLoad && !phase.speed_key.empty();
+    if (phase.kind != TestPhase::Kind::kMove && !is_load) continue;
+    const double depth_m = is_load ? phase.force_N / result.specimen_stiffness_N_m : phase.depth_m;
+    const double way_m = std::abs(result.stage_travel_of(depth_m - before_m));
+    before_m = depth_m;
     if (!(phase.move_s > 0.0) || way_m <= dynamics.max_speed_m_s * phase.move_s) continue;
     result.problems.push_back("the move '" + phase.name + "' needs " +
                               text_from_number(way_m / phase.move_s * 1e3, 3) +

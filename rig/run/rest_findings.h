@@ -37,6 +37,12 @@ std::vector<RestFinding> findings_at_rest(const RestReadings& seen, const RigCon
 // Settings of the controller that no stage has, such as those of an erased memory.
 std::vector<RestFinding> findings_of_stage(const StageDynamics& dynamics);
 
+// For a rig file that does not state when its load cell has answered to a force: the noise that
+// proves the converter alive comes from the converter alone, also with an open wire of the cell.
+inline constexpr const char* kUnanswered =
+    "nothing has shown yet that the load cell feels a force: its noise is that of the converter "
+    "and does not show an open wire. Touch it once with: viscard rig touch --rig FILE";
+
 // Where the last digit of the readings exceeds their noise, equal readings are normal and prove
 // nothing. True if the noise is seen, so that it proves the converter alive.
 bool is_proven_by_noise(const RestReadings& seen);

@@ -41,6 +41,9 @@ struct RunControl {
   // A punch that presses before the test is lifted in any case; then the test goes on instead of
   // ending.
   bool lifts_at_start = false;
+  // The load cell has answered to a force today: it is an emulated one, or an earlier run of the
+  // series has found the specimen.
+  bool has_answered = false;
   Thermometer* thermometer = nullptr;  // read beside the run; may be nullptr
   // With home = true under [stage], and for a series of runs: what an earlier one that has homed
   // the stage has left (RunOutcome::homed), so that this one does not; and whether this one homes

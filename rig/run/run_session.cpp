@@ -211,8 +211,8 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
                        ", in the approach. Lower speed under [approach] of the test file, or "
                        "check modulus_guess of the specimen");
   }
-  throw LimitReached(reached +
-                     ". Lower depth under [ramp] of the test file, or check modulus_guess of the "
+  throw LimitReached(reached + ". Lower " + load_key_ +
+                     " of the test file, or check modulus_guess of the "
                      "specimen");
 }
 

@@ -93,6 +93,8 @@ class RunSession {
   // later ones should take.
   void begin_phase(const std::string& name, double planned_rest_s, const std::string& text);
   void event(const std::string& name, const std::string& value, const std::string& text);
+  // What the test file calls the depth or force of the move that presses from now on.
+  void set_load_key(const std::string& key) { load_key_ = key; }
   void set_contact_m(double contact_m) { progress_.set_contact_m(contact_m); }
 
   // Ends the guarding, stops the stage and lifts the punch as far as the devices still answer.
@@ -197,6 +199,7 @@ class RunSession {
   bool is_doubtful_ = false;    // the newest reading has no force
   bool is_wild_ = false;        // the noise has grown many times
   std::vector<std::string> doubts_;
+  std::string load_key_ = "the depth";
   std::string blind_;  // why the readings say nothing about the force any more; empty: they do
 };
 

@@ -194,6 +194,7 @@ void go_on_from_here(TestRun& run, const std::string& what) {
 void free_punch(TestRun& run, double fell_N) {
   const double felt_after_m = lifted_m(run);
   run.presses_at_start = true;
+  run.has_answered = true;
   run.session.event("pressing", text_from_number(fell_N, 6),
                     "The punch was already pressing: the force fell by " + millinewtons(fell_N) +
                         " when the stage lifted by " + in_mm_lifted(felt_after_m));

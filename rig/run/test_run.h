@@ -27,6 +27,7 @@ struct TestRun {
   bool presses_at_start = false;   // it pressed, and the run ends because of that
   bool is_tared = false;           // the zero is known and nothing presses
   bool is_proven = false;          // the load cell has shown that it measures
+  bool has_answered = false;       // it has answered to a force, now or on the day in the rig file
   double contact_N_m = 0.0;        // stiffness of the contact, as the approach has seen it
   bool is_place_doubtful = false;  // the force contradicts the stage's count
 };

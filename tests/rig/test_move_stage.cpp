@@ -34,6 +34,8 @@ TEST_CASE("a jog moves the stage by its way in either direction", "[rig][pty]") 
   RigFixture rig(options);
   const StageMoved moved = moved_on(rig, jog(way_m));
   CHECK_FALSE(moved.is_stopped_by_force);
+  // Toward the specimen no force may also mean a blind cell.
+  CHECK(Contains("no force was felt").match(moved.note) == (way_m > 0.0));
   CHECK(moved.to_m - moved.from_m == Approx(way_m).margin(1e-6));
   CHECK(rig.emulated.outcome().final_position_m == Approx(way_m).margin(1e-6));
 }

@@ -1,6 +1,8 @@
 #include "rig/emulator/pty_port.h"
 #include "rig/lines/port_probe.h"
+#include "rig/open_devices.h"
 #include "rig/rig_check.h"
+#include "rig/touch_cell.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -61,6 +63,56 @@ TEST_CASE("numbers with a decimal point and no unit are read as volts, and the a
   options.config.load_cell.line_format = "volts";
   RigFixture stated(options);
   CHECK_FALSE(advised(check_rig(stated.stage, stated.load_cell, stated.config, stated.clock, 5.0)));
+}
+
+namespace {
+
+// Touches the load cell of a rig whose force changes as asked while it listens: what the weight is
+// at a time since the connection, N.
+double touched(double (*weight_N)(double since_ready_s, bool is_ready)) {
+  RigFixture rig(RigFixture::options());
+  double ready_s = 0.0;
+  bool is_ready = false;
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* sample = std::get_if<LoadSample>(&record);
+    if (sample == nullptr) return;
+    rig.emulated.hang_weight(weight_N(sample->host_time_s - ready_s, is_ready));
+  };
+  TouchOptions options;
+  options.wait_s = 8.0;
+  options.ready = [&] {
+    ready_s = rig.clock.now_s();
+    is_ready = true;
+  };
+  return await_touch(rig.load_cell, rig.config, rig.clock, options);
+}
+
+}  // namespace
+
+TEST_CASE("a finger answers, and neither a drift nor a zero that jumps does", "[rig][pty]") {
+  CHECK(touched([](double s, bool is_ready) {
+          return is_ready && s > 1.0 && s < 2.0 ? 0.3 : 0.0;
+        }) == Approx(0.3).epsilon(0.02));
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_WITH(touched([](double s, bool) { return 0.05 * s; }), Contains("drifts by 5"));
+  CHECK_THROWS_WITH(touched([](double s, bool) { return -0.03 * s; }), Contains("drifts by -3"));
+  CHECK_THROWS_WITH(
+      touched([](double s, bool is_ready) { return is_ready && s > 1.0 ? 0.1 : 0.0; }),
+      Contains("did not come back"));
+  CHECK_THROWS_WITH(touched([](double, bool) { return 0.4; }), Contains("before anything"));
+  CHECK_THROWS_WITH(touched([](double, bool) { return 0.0; }), Contains("has not answered"));
+}
+
+TEST_CASE("two devices on one port are refused, also under two names", "[rig]") {
+  RigConfig rig;
+  rig.stage.port = "/dev/null";
+  rig.load_cell.port = "/dev/../dev/null";
+  CHECK_THROWS_WITH(check_devices(rig), Catch::Contains("is the same port as that of [stage]"));
+  rig.load_cell.port = "/dev/zero";
+  CHECK_NOTHROW(check_devices(rig));
+  rig.thermometer.driver = "text";
+  rig.thermometer.port = "/dev/zero";
+  CHECK_THROWS_WITH(check_devices(rig), Catch::Contains("that of [load_cell]"));
 }
 
 TEST_CASE("the state of a port is reported without opening it", "[rig][pty]") {

@@ -275,15 +275,51 @@ TEST_CASE("an approach that touches nothing within its limit is an error, and th
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = 8e-3;
+  const bool has_answered = GENERATE(true, false);
+  if (has_answered) options.config.load_cell.answered_on = "2026-11-28";
   RigFixture rig(options);
   TestPlan plan = short_plan();
   plan.approach_speed_m_s = 1e-3;
   plan.approach_limit_m = 0.5e-3;
   const RunOutcome outcome = rig.run(plan);
   CHECK(outcome.status == "interrupted");
-  CHECK_THAT(outcome.reason, Contains("nothing was touched") && Contains("toward_specimen = 1") &&
-                                 Contains("motor is dead") && Contains("lifted by"));
+  CHECK_THAT(outcome.reason, Contains("nothing was touched") && Contains("viscard rig touch") &&
+                                 Contains("toward_specimen = 1") && Contains("motor is dead") &&
+                                 Contains("lifted by"));
+  // A blind cell may have let the punch press: nobody is sent nearer before it has answered.
+  CHECK(Contains("bring it nearer").match(outcome.reason) == has_answered);
+  CHECK(Contains("Touch the cell first").match(outcome.reason) != has_answered);
+  CHECK(rig.has_event("advice", "unanswered") != has_answered);
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-6));
+}
+
+TEST_CASE("a contact that is stiffer than the stated frame names the frame", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  options.config.frame.stiffness_N_m = 1e3;
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan());
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("stiffness under [frame]") && Contains("only 1 N/mm") &&
+                                 !Contains("modulus_guess"));
+}
+
+TEST_CASE("a force above the limit names what the test calls its load", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options();
+  RigFixture rig(options);
+  double weight_N = -1.0;  // grows in the hold; too slowly for an open wire
+  when_phase(rig, "creep", [&] { weight_N = 0.0; });
+  rig.on_record = [&](const RunRecord& record) {
+    if (weight_N < 0.0 || !std::holds_alternative<LoadSample>(record)) return;
+    rig.emulated.hang_weight(weight_N += 0.1);
+  };
+  TestPlan plan = short_plan();
+  plan.protocol = "creep";
+  plan.creep.force_N = 0.3;
+  plan.creep.ramp_s = 2.0;
+  plan.creep.hold_s = 3.0;
+  const RunOutcome outcome = rig.run(plan);
+  CHECK(outcome.status == "stopped");
+  CHECK_THAT(outcome.reason, Contains("Lower force under [creep] of the test file"));
 }
 
 TEST_CASE("a run that is stopped before anything moved reports that the stage stands",

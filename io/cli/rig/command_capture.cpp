@@ -10,6 +10,7 @@
 #include "io/flow/rig_keys.h"
 #include "models/maths/failure_text.h"
 #include "models/maths/text_of_number.h"
+#include "rig/run/rest_findings.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -180,6 +181,8 @@ bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureW
   const CaptureSetup setup = capture_setup(one, step);
   check_before_start(one, setup, streams);
   check_calibration(one, setup, streams);
+  const bool has_answered = homing.has_answered || !setup.rig.load_cell.answered_on.empty();
+  if (!words.is_emulated && !has_answered) streams.err << "viscard: " << kUnanswered << "\n";
   result.trouble = wait_for(step, previous, words, streams);
   if (!result.trouble.empty()) return false;
   if (step.touch > 0) streams.err << "viscard: " << touch_text(step) << step.out_file << "\n";

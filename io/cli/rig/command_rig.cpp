@@ -15,6 +15,7 @@
 #include "rig/lines/port_probe.h"
 #include "rig/lines/transport.h"
 #include "rig/open_devices.h"
+#include "rig/run/rest_findings.h"
 
 #include <fmt/format.h>
 
@@ -134,7 +135,9 @@ void print_text(const RigCheck& found, std::ostream& out) {
     out << "thermometer sends no temperature\n";
   }
   for (const std::string& text : found.advice) out << "advice     " << text << "\n";
-  out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
+  out << (!found.is_usable       ? "not fit for a test yet\n"
+          : found.advice.empty() ? "ready\n"
+                                 : "ready, with the advice above\n");
 }
 
 int show_overshoot(bool as_json, Streams& streams) {
@@ -198,8 +201,9 @@ CommandSyntax rig_syntax(RigWords& words) {
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any but the "
       "thermometer's of a rig file. check opens all devices of a rig file, identifies and measures "
-      "them, and reports what to change; nothing moves. touch waits for a finger or a weight on a "
-      "load cell whose readings show no noise, and writes the day into the rig file. jog moves the "
+      "them, and reports what to change; nothing moves. touch waits until a finger or a weight has "
+      "pressed on the load cell and is away again, and writes the day into the rig file. jog moves "
+      "the "
       "stage toward the specimen or away from it, lift moves it 2 mm away; they stop when the "
       "force has changed by --limit, away from the specimen only when it has risen by that or "
       "pulls with it. home runs the homing cycle of the controller, which only the "
@@ -277,12 +281,15 @@ int touch_and_write(const RigWords& words, bool as_json, Streams& streams) {
   constexpr double kWait_s = 30.0;
   const double wait_s = listening_seconds(words, kWait_s);
   const StopOnSignal on_signal;
-  const double force_N = touch_rig(
-      file ? read_rig(*file, words.plausible) : demo_rig(), words.is_emulated, wait_s,
-      [&] {
-        streams.err << "Put a finger or a weight on the load cell now, within " << wait_s << " s\n";
-      },
-      &StopOnSignal::is_asked());
+  TouchOptions options;
+  options.wait_s = wait_s;
+  options.stop = &StopOnSignal::is_asked();
+  options.ready = [&] {
+    streams.err << "Put a finger or a weight on the load cell now, within " << wait_s << " s\n";
+  };
+  options.felt = [&] { streams.err << "Take it away again, within " << wait_s << " s\n"; };
+  const double force_N =
+      touch_rig(file ? read_rig(*file, words.plausible) : demo_rig(), words.is_emulated, options);
   if (file && !words.is_emulated) write_answer(*file, today());
   if (as_json) {
     print_result(
@@ -381,6 +388,8 @@ int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& 
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+  const bool has_answered = words.is_emulated || !rig.load_cell.answered_on.empty();
+  if (order.toward_m > 0.0 && !has_answered) streams.err << "viscard: " << kUnanswered << "\n";
   const StopOnSignal on_signal;
   RunControl control;
   control.stop = &StopOnSignal::is_asked();
@@ -411,8 +420,11 @@ int move_and_print(const RigWords& words, const CommandSyntax& syntax, Streams& 
   if (!moved.note.empty()) streams.err << "viscard: " << moved.note << "\n";
   if (!moved.is_stopped_by_force) return kDone;
   streams.err << fmt::format(
-      "viscard: the stage stopped before the end of its way, because the force {} by {} N\n",
-      order.toward_m > 0.0 ? "changed" : "rose or pulled", order.limit_N);
+      "viscard: the stage stopped before the end of its way, because the force {} by {} N{}\n",
+      order.toward_m > 0.0 ? "changed" : "rose or pulled", order.limit_N,
+      order.toward_m > 0.0 ? ""
+                           : ". If it went toward the specimen, toward_specimen under [stage] of "
+                             "the rig file has the wrong sign");
   return kFailed;
 }
 

@@ -79,6 +79,23 @@ TEST_CASE("repeatability is the pooled scatter of repeated loads", "[fit]") {
   CHECK(fit.repeatability == Approx(1e-3 / 1.451 * std::sqrt(8.0 / 9.0)).epsilon(0.05));
 }
 
+TEST_CASE("the gain is as uncertain as its series differ, and 1 % between them is refused",
+          "[fit]") {
+  const auto with_third = [](double factor) {
+    WeightReadings data = cell_readings(3, 0.7255, 0.0, 0.0, 3e-5, 4);
+    for (std::size_t i = 18; i < data.reading.size(); ++i) {
+      data.reading[i] = 0.1 + (data.reading[i] - 0.1) * factor;
+    }
+    return data;
+  };
+  CHECK_THROWS_WITH(fit_load_cell(with_third(1.04)),
+                    Contains("differs by 4 % between the series") && Contains("at most 1 %"));
+  const LoadCellFit fit = fit_load_cell(with_third(1.005));
+  CHECK(fit.budget[1].relative_u == Approx(0.005 / std::sqrt(3.0)).epsilon(0.05));
+  CHECK(std::abs(fit.gain - 0.7255 * 1.005) < 2.0 * fit.gain_u);
+  CHECK(std::abs(fit.gain - 0.7255) < 2.0 * fit.gain_u);
+}
+
 TEST_CASE("an invalid calibration is refused", "[fit]") {
   WeightReadings data;
   data.force_N = {0.0, 1.0};
@@ -89,6 +106,8 @@ TEST_CASE("an invalid calibration is refused", "[fit]") {
   CHECK_THROWS_WITH(fit_load_cell(data), Contains("begin without load"));
   data.force_N = {0.0, 1.0, 2.0};
   data.reading = {0.1, 0.1, 0.1};
+  CHECK_THROWS_WITH(fit_load_cell(data), Contains("do not change"));
+  data.reading = {0.1, 0.1 + 1e-17, 0.1 - 1e-16};  // frozen, but for the rounding of a mean
   CHECK_THROWS_WITH(fit_load_cell(data), Contains("do not change"));
   data.reading = {0.1, 0.1};
   CHECK_THROWS_AS(fit_load_cell(data), std::invalid_argument);
@@ -113,6 +132,22 @@ TEST_CASE("points far off a line are of no frame on a rigid block, however many 
   CapturedRun run;
   run.plan.protocol = "staircase";
   CHECK_THROWS_WITH(block_points_from_capture(run), Contains("protocol 'staircase'"));
+}
+
+TEST_CASE("a contact that stiffens is of no frame on a seated block, however smooth it is",
+          "[fit]") {
+  for (const double largest_m : {95e-6, 25e-6}) {
+    BlockPoints round;  // a sphere: F = C x^1.5
+    for (int i = 1; i < 20; ++i) {
+      round.position_m.push_back(largest_m * i / 19.0);
+      round.force_N.push_back(1e6 * std::pow(round.position_m.back(), 1.5));
+    }
+    CHECK_THROWS_WITH(fit_frame_stiffness(round, 0.0), Contains("seated"));
+    for (std::size_t i = 0; i < round.force_N.size(); ++i) {
+      round.position_m[i] += round.force_N[i] / 8e3;  // in series with a frame
+    }
+    CHECK_THROWS_WITH(fit_frame_stiffness(round, 0.0), Contains("seated"));
+  }
 }
 
 TEST_CASE("the stiffness of the frame comes from the slope of position over force", "[fit]") {

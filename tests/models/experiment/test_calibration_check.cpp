@@ -92,6 +92,10 @@ TEST_CASE("a frame a thousand times too soft is refused", "[models]") {
   rig.frame.stiffness_N_m = 10e3;
   rig.frame.stiffness_relative_u = 2.0;  // per cent without the sign
   CHECK_THROWS_WITH(require_believable(rig), Contains("a share below 1"));
+  rig.frame.stiffness_relative_u = 0.02;
+  rig.stage.depth_relative_u = 3.0;
+  CHECK_THROWS_WITH(require_believable(rig),
+                    Contains("stage.depth_relative_u") && Contains("a share below 1"));
 }
 
 TEST_CASE("the uncertainty of a gain is that at the force of use", "[models]") {

@@ -56,6 +56,21 @@ TEST_CASE("the format is learnt in spite of a reset or a wrap among the first li
   CHECK(shown(learnt_hx711_format(garbled, 80.0)) == "micros,counts");
 }
 
+TEST_CASE("lines that come twice have a clock nevertheless, and count once", "[rig][pty]") {
+  ScriptedAmplifier amplifier("auto");
+  for (int i = 0; i < 60; ++i) {
+    const std::string text =
+        std::to_string(5'000'000 + 12500 * i) + "," + std::to_string(8000 + i % 3) + "\n";
+    amplifier.send(text + text);
+  }
+  amplifier.cell.connect([&] { amplifier.serve(); });
+  amplifier.serve_all();
+  CHECK(shown(amplifier.cell.format()) == "micros,counts");
+  CHECK(amplifier.cell.counts().received > 40);
+  CHECK(amplifier.cell.counts().duplicate >= amplifier.cell.counts().received - 1);
+  for (const double counts : amplifier.counts()) CHECK(counts < 9000.0);
+}
+
 TEST_CASE("a wrong expected rate makes no decimal comma of a clock", "[rig]") {
   for (const double rate_Hz : {10.0, 1000.0, 4000.0}) {
     CAPTURE(rate_Hz);

@@ -135,6 +135,22 @@ TEST_CASE("a converter at 10 readings/s is waited for, and the time is stated be
   CHECK_THAT(slowest.problems[0], Catch::Matchers::Contains("fewer than the 2/s of any test"));
 }
 
+TEST_CASE("a load to a force in a time that no stage keeps is refused as a ramp is", "[rig]") {
+  TestPlan plan;
+  plan.protocol = "creep";
+  plan.creep.force_N = 0.3;
+  plan.creep.ramp_s = 1e-3;
+  StageDynamics dynamics;
+  dynamics.steps_per_m = 1.6e6;
+  dynamics.acceleration_m_s2 = 0.2;
+  dynamics.max_speed_m_s = 10e-3;
+  const Preflight refused = preflight(demo_rig(), plan, demo_specimen(10.0), dynamics);
+  REQUIRE(refused.problems.size() == 1);
+  CHECK_THAT(refused.problems[0], Catch::Matchers::Contains("duration under [creep]"));
+  REQUIRE_FALSE(refused.warnings.empty());
+  CHECK_THAT(refused.warnings[0], Catch::Matchers::Contains("holds only 0 readings"));
+}
+
 TEST_CASE("impossible plans and rigs are refused with the value to change", "[rig]") {
   TestPlan plan;
   plan.ramp_s = 0.0;
