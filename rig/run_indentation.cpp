@@ -169,6 +169,7 @@ class IndentationRun {
     const double implied_N = std::max(session.implied_N(last.from_m, to_m), -last.force_N);
     if (session.follows(implied_N, change_N)) return;
     run_.is_place_doubtful = true;
+    if (to_m < last.from_m && change_N > session.judged_N()) session.end_wrong_way(change_N);
     RunSession::throw_unfollowed(to_m > last.from_m ? "pressed" : "unloaded", last.from_m, to_m,
                                  implied_N, change_N);
   }
@@ -253,6 +254,7 @@ std::string code_of_end(const std::exception& error, bool presses_at_start) {
   if (is_a<ReadingsTooOld>(error)) return "readings-old";
   if (is_a<CellIsDead>(error)) return "cell-dead";
   if (is_a<ForceDoesNotFollow>(error)) return "no-response";
+  if (is_a<StageGoesWrongWay>(error)) return "wrong-way";
   if (is_a<PunchNotFree>(error)) return "not-lifted";
   if (is_a<ComputerLate>(error)) return "computer-late";
   return is_a<RigError>(error) ? "device" : "failed";
@@ -275,12 +277,14 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   outcome.phase = phases.name();
   outcome.has_begun = run.session.has_moved() && run.is_tared;
   if (run.is_in_contact) note_depth(run);
-  if (is_a<ForceDoesNotFollow>(error)) run.is_place_doubtful = true;
-  // PunchNotFree has judged the force after a lift already.
-  const bool is_zero_known = run.is_tared && !is_a<PunchNotFree>(error);
-  const SafeEnd end =
-      run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s,
-                            is_zero_known ? std::optional(zero_drift_N(run)) : std::nullopt);
+  const bool goes_wrong_way = is_a<StageGoesWrongWay>(error);
+  if (goes_wrong_way || is_a<ForceDoesNotFollow>(error)) run.is_place_doubtful = true;
+  // PunchNotFree has judged the force after a lift already, and a stage that presses when it shall
+  // lift is not moved any more.
+  const bool is_zero_known = run.is_tared && !goes_wrong_way && !is_a<PunchNotFree>(error);
+  const SafeEnd end = run.session.make_safe(
+      goes_wrong_way ? run.session.stage().position_m() : phases.safe_position_m(),
+      run.plan.retract_speed_m_s, is_zero_known ? std::optional(zero_drift_N(run)) : std::nullopt);
   if (end.is_force_left) run.is_place_doubtful = true;
   const bool knows_position =
       !is_a<DeviceRestarted>(error) && !is_a<StageAlarm>(error) && !run.session.is_position_lost();
