@@ -221,6 +221,14 @@ TEST_CASE("an unloading at once after a fast press is no move the wrong way", "[
   CHECK(run.outcome.status == "finished");
 }
 
+TEST_CASE("an axis that sinks after the lift is no finished run", "[rig][pty]") {
+  const FaultedRun run = run_with(rig_with("sinks@baseline_after"));
+  INFO(run.said << " " << run.bench.peak_force_N);
+  CHECK(run.outcome.code == "not-lifted");
+  CHECK_THAT(run.said, Contains("the punch was free, and now the force is") &&
+                           Contains("the axis sinks") && Contains("by hand"));
+}
+
 TEST_CASE("a zero that drifts during a run is a doubt that says where the punch is", "[rig][pty]") {
   RigFixture rig(rig_with("dead-motor@never"));
   when_phase(rig, "hold", [&rig] { rig.emulated.hang_weight(0.1); });
