@@ -112,7 +112,7 @@ class IndentationRun {
       case TestPhase::Kind::kApproach:
         return carry_out_approach(run_);
       case TestPhase::Kind::kWait:
-        return wait(phase);
+        return lifted_from_N_ ? await_end(phase, *lifted_from_N_) : wait(phase);
       case TestPhase::Kind::kMove:
         return go_to_depth(phase);
       case TestPhase::Kind::kLoad:
@@ -170,6 +170,7 @@ class IndentationRun {
     const double implied_N = std::max(session.implied_N(last.from_m, to_m), -last.force_N);
     if (session.follows(implied_N, change_N)) return;
     run_.is_place_doubtful = true;
+    if (to_m < last.from_m && change_N > session.judged_N()) session.end_wrong_way(change_N);
     RunSession::throw_unfollowed(to_m > last.from_m ? "pressed" : "unloaded", last.from_m, to_m,
                                  implied_N, change_N);
   }
@@ -179,7 +180,17 @@ class IndentationRun {
     const double before_N = session.sound_force_N(run_.outcome.noise_N);
     run_.is_in_contact = false;
     session.move(safe_position_m(), run_.plan.retract_speed_m_s, "retract");
-    check_lifted(run_, before_N);
+    if (check_lifted(run_, before_N, LiftEnd::kNow)) lifted_from_N_ = before_N;
+  }
+
+  // A punch that was free after the lift must still be at the end: an axis can sink.
+  void await_end(const TestPhase& phase, double before_N) {
+    const double end_s = run_.session.now_s() + phase.duration_s;
+    if (const double mean_s = lift_mean_s(run_); phase.duration_s > mean_s) {
+      run_.session.pump_until(end_s - mean_s);
+      check_lifted(run_, before_N, LiftEnd::kLater);
+    }
+    run_.session.pump_until_received(end_s);
   }
 
   double planned_from_s(std::size_t phase) const {
@@ -196,6 +207,8 @@ class IndentationRun {
   std::optional<LastMove> last_move_;  // in contact, not judged yet
   double depth_asked_m_ = 0.0;         // where the last phase that changed the depth has left it
   std::optional<double> lifted_to_m_;
+  // The force before the last lift, after which it was free.
+  std::optional<double> lifted_from_N_;
   bool is_begun_ = false;
   std::string name_ = "connect";
 };
@@ -254,6 +267,7 @@ std::string code_of_end(const std::exception& error, bool presses_at_start) {
   if (is_a<ReadingsTooOld>(error)) return "readings-old";
   if (is_a<CellIsDead>(error)) return "cell-dead";
   if (is_a<ForceDoesNotFollow>(error)) return "no-response";
+  if (is_a<StageGoesWrongWay>(error)) return "wrong-way";
   if (is_a<PunchNotFree>(error)) return "not-lifted";
   if (is_a<ComputerLate>(error)) return "computer-late";
   return is_a<RigError>(error) ? "device" : "failed";
@@ -276,12 +290,14 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   outcome.phase = phases.name();
   outcome.has_begun = run.session.has_moved() && run.is_tared;
   if (run.is_in_contact) note_depth(run);
-  if (is_a<ForceDoesNotFollow>(error)) run.is_place_doubtful = true;
-  // PunchNotFree has judged the force after a lift already.
-  const bool is_zero_known = run.is_tared && !is_a<PunchNotFree>(error);
-  const SafeEnd end =
-      run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s,
-                            is_zero_known ? std::optional(zero_drift_N(run)) : std::nullopt);
+  const bool goes_wrong_way = is_a<StageGoesWrongWay>(error);
+  if (goes_wrong_way || is_a<ForceDoesNotFollow>(error)) run.is_place_doubtful = true;
+  // PunchNotFree has judged the force after a lift already, and a stage that presses when it shall
+  // lift is not moved any more.
+  const bool is_zero_known = run.is_tared && !goes_wrong_way && !is_a<PunchNotFree>(error);
+  const SafeEnd end = run.session.make_safe(
+      goes_wrong_way ? run.session.stage().position_m() : phases.safe_position_m(),
+      run.plan.retract_speed_m_s, is_zero_known ? std::optional(zero_drift_N(run)) : std::nullopt);
   if (end.is_force_left) run.is_place_doubtful = true;
   const bool knows_position =
       !is_a<DeviceRestarted>(error) && !is_a<StageAlarm>(error) && !run.session.is_position_lost();

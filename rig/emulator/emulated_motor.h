@@ -24,7 +24,14 @@ class EmulatedMotor {
     if (kind_ == RigFaultKind::kLostSteps && step_m > 0.0 && force_N > kUnderLoad_N) {
       lost_m_ += kShareLost * step_m;
     }
+    if (kind_ == RigFaultKind::kDirectionStuck && step_m < 0.0) lost_m_ += 2.0 * step_m;
     return scale_ * (counted_m - lost_m_);
+  }
+  // A sinking axis moves with the time, not with the count.
+  bool is_sinking() const { return kind_ == RigFaultKind::kSinks; }
+  void pass(double time_s) {
+    constexpr double kSinks_m_s = 0.7e-3;
+    if (is_sinking()) lost_m_ -= kSinks_m_s * time_s;
   }
   double lost_m() const { return lost_m_; }  // counted and not travelled
 

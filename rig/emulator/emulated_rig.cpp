@@ -159,10 +159,11 @@ class EmulatedRig::Impl final : public WaitingRig {
     while (bench_s_ < to_s) {
       const double next_s =
           std::min({to_s, bench_s_ + kLargestStep_s, stage_->next_knot_s(bench_s_)});
+      motor_.pass(next_s - bench_s_);
       const double at_m = motor_.position_m(stage_->bench_position_m(next_s), specimen_.force_N());
       const double force_N = specimen_.advance(next_s - bench_s_, at_m);
       bench_s_ = next_s;
-      if (!specimen_.is_touched() && !stage_->is_moving(bench_s_)) {
+      if (!specimen_.is_touched() && !stage_->is_moving(bench_s_) && !motor_.is_sinking()) {
         bench_s_ = to_s;  // nothing can happen until the stage moves
       }
       const std::lock_guard lock(outcome_mutex_);

@@ -10,7 +10,7 @@
 namespace viscard {
 namespace {
 
-constexpr std::array<std::pair<RigFaultKind, const char*>, 13> kFaults{
+constexpr std::array<std::pair<RigFaultKind, const char*>, 15> kFaults{
     {{RigFaultKind::kFrozen, "frozen"},
      {RigFaultKind::kZeros, "zeros"},
      {RigFaultKind::kOpenWire, "open-wire"},
@@ -20,6 +20,8 @@ constexpr std::array<std::pair<RigFaultKind, const char*>, 13> kFaults{
      {RigFaultKind::kSlowReadings, "slow-readings"},
      {RigFaultKind::kDeadMotor, "dead-motor"},
      {RigFaultKind::kLostSteps, "lost-steps"},
+     {RigFaultKind::kDirectionStuck, "direction-stuck"},
+     {RigFaultKind::kSinks, "sinks"},
      {RigFaultKind::kStageStall, "stage-stall"},
      {RigFaultKind::kLoadCellPort, "load-cell-port"},
      {RigFaultKind::kStagePort, "stage-port"},

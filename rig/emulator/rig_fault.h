@@ -8,17 +8,19 @@ namespace viscard {
 // What can break on an emulated rig in the middle of a run while its devices go on answering.
 enum class RigFaultKind {
   kNone,
-  kFrozen,        // each reading repeats the last one
-  kZeros,         // each reading is exactly 0
-  kOpenWire,      // each reading is the end of the converter's range
-  kDriftingWire,  // noise and a drifting offset that no force moves
-  kSaturation,    // the amplifier clips at a quarter of the cell's full scale
-  kFastReadings,  // three times as many readings per second
-  kSlowReadings,  // 10 readings per second
-  kDeadMotor,     // the stage counts on, its motor stands
-  kLostSteps,     // toward the specimen and under load every fifth step is lost
-  kLoadCellPort,  // the port hangs up
-  kStageStall,    // the stage's controller does nothing for half a second, then goes on
+  kFrozen,          // each reading repeats the last one
+  kZeros,           // each reading is exactly 0
+  kOpenWire,        // each reading is the end of the converter's range
+  kDriftingWire,    // noise and a drifting offset that no force moves
+  kSaturation,      // the amplifier clips at a quarter of the cell's full scale
+  kFastReadings,    // three times as many readings per second
+  kSlowReadings,    // 10 readings per second
+  kDeadMotor,       // the stage counts on, its motor stands
+  kLostSteps,       // toward the specimen and under load every fifth step is lost
+  kDirectionStuck,  // each move away from the specimen goes toward it
+  kSinks,           // the punch creeps toward the specimen by 0.7 mm/s, which nothing counts
+  kLoadCellPort,    // the port hangs up
+  kStageStall,      // the stage's controller does nothing for half a second, then goes on
   kStagePort,
   kStagePortBack,  // it hangs up and is back under its name after 1 s of wall time
 };

@@ -307,6 +307,8 @@ void back_off(TestRun& run, double contact_m, double touched_N) {
     session.move(contact_m - run.plan.gap_m, run.plan.retract_speed_m_s, "back off");
     const ForceMean free = session.mean_force(kSettle_s);
     still_N = free.force_N;
+    const double rise_N = still_N - touched_N;
+    if (rise_N > session.judged_N()) session.end_wrong_way(rise_N);
     const double free_N = kContactSigmas * run.outcome.noise_N / std::sqrt(free.n) + 1e-4;
     if (std::abs(free.force_N) < free_N + 0.2 * run.plan.contact_force_N) {
       run.contact_m = contact_m;

@@ -25,6 +25,10 @@ double end_stands_out(double end, double next, double next_but_one) {
   return std::abs(end - next) - kSteeper * std::abs(next - next_but_one);
 }
 
+double middle_of(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
 // Standard deviation of the noise, from the steps between neighbours.
 double noise_of_steps(const std::vector<double>& values) {
   std::vector<double> steps;
@@ -94,6 +98,7 @@ ForceReadings::Reading ForceReadings::take(const LoadSample& sample, double made
   }
   last_made_s_ = std::max(last_made_s_, made_at_s);
   newest_made_s_ = made_at_s;
+  take_rise(made_at_s);
   if (collects_from_s_ && made_at_s >= *collects_from_s_) collect(absolute_N, made_at_s);
   return {force_N, false};
 }
@@ -103,6 +108,33 @@ void ForceReadings::add_to_tare(double force_N) {
   force_N_ -= force_N;
   for (double& earlier_N : earlier_N_) earlier_N -= force_N;
   peak_force_N_ = 0.0;
+  rise_.reset();
+}
+
+void ForceReadings::watch_rise(const MoveAway& away) {
+  const double newest_N =
+      n_forces_ < 3 ? force_N_ : middle_of(force_N_, earlier_N_[0], earlier_N_[1]);
+  const double from_N = std::max(away.least_N, newest_N);
+  if (away.goes_on && rise_) {
+    rise_->from_N = std::min(rise_->from_N, from_N);
+  } else {
+    rise_ = Rise{away.from_s, from_N};
+  }
+  rise_->has_end = rise_->is_over = false;
+}
+
+void ForceReadings::end_rise(double at_s) {
+  if (!rise_) return;
+  rise_->until_s = at_s;
+  rise_->has_end = true;
+}
+
+void ForceReadings::take_rise(double made_at_s) {
+  if (!rise_ || rise_->is_over) return;
+  const double force_N = std::min(force_N_, earlier_N_[0]);  // one garbled digit does not count
+  if (made_at_s <= rise_->from_s) rise_->from_N = std::max(rise_->from_N, force_N);
+  rise_->rise_N = force_N - rise_->from_N;
+  rise_->is_over = rise_->has_end && made_at_s > rise_->until_s;
 }
 
 void ForceReadings::watch(double lowest_N, double highest_N) {

@@ -33,6 +33,12 @@ double felt_difference_N(double noise_N, int n);
 // digit. A force that rises, falls or relaxes loses none.
 std::vector<double> without_spikes(const std::vector<double>& values);
 
+// The force at the end of a press is known so much later: an adapter and the stage answer late, and
+// a reading may be the mean of its period. wall_s: rig time of a second on the wall.
+inline double press_seen_after_s(double period_s, double wall_s) {
+  return 2.0 * period_s + 0.025 * wall_s;
+}
+
 // Turns readings of the load cell into forces from the tare. Keeps the newest and the largest,
 // reports when a force passes a threshold, and collects the readings of a mean.
 class ForceReadings {
@@ -65,6 +71,21 @@ class ForceReadings {
   void stop_watching() { watched_.reset(); }
   bool has_exceeded() const { return has_exceeded_; }
 
+  // A move away from the specimen, which must not raise the force. Readings made until from_s show
+  // the force at its start, whenever they arrive; it counts as least_N at least, because a punch
+  // that is pulled comes free at zero. goes_on: the start is that of the move before,
+  // unless the force is lower now.
+  struct MoveAway {
+    double from_s = 0.0, least_N = 0.0;
+    bool goes_on = false;
+  };
+  void watch_rise(const MoveAway& away);
+  // How far the last two forces lie above the one at the start; 0 if nothing is watched.
+  double rise_N() const { return rise_ ? rise_->rise_N : 0.0; }
+  bool is_rise_open() const { return rise_ && !rise_->has_end; }  // that move goes on
+  void end_rise(double at_s);  // later readings change nothing, from the second one on
+  void forget_rise() { rise_.reset(); }
+
   // Collects the readings made at or after time_s until stop_collecting().
   void collect_from(double time_s);
   void stop_collecting() { collects_from_s_.reset(); }
@@ -74,6 +95,7 @@ class ForceReadings {
   ForceMean collected_mean() const;
 
  private:
+  void take_rise(double made_at_s);
   void collect(double absolute_N, double made_at_s);
 
   const RigConfig& rig_;
@@ -89,6 +111,12 @@ class ForceReadings {
   };
   std::optional<Range> watched_;
   bool has_exceeded_ = false;
+  struct Rise {
+    double from_s = 0.0, from_N = 0.0, rise_N = 0.0;
+    double until_s = 0.0;
+    bool has_end = false, is_over = false;
+  };
+  std::optional<Rise> rise_;
   std::optional<double> collects_from_s_;
   std::vector<double> collected_N_;  // before the tare is subtracted
   double collected_first_s_ = 0.0, collected_until_s_ = 0.0;

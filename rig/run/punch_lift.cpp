@@ -24,7 +24,14 @@ constexpr const char* kStoppedEarly = "the lift was stopped before its end";
 
 }  // namespace
 
+std::string wrong_way_text(double rise_N) {
+  return "the force rises by " + text_from_number(rise_N * 1e3, 1) +
+         " mN: the stage moves toward the specimen when it shall move away: check the direction "
+         "(DIR) wire, its driver and toward_specimen; THE PUNCH PRESSES: lift it by hand";
+}
+
 SafeEnd PunchLift::carry_out() {
+  was_moving = devices.stage().is_moving() || devices.needs_recovery();
   // A stage in alarm refuses the first attempt, and a limit switch that opens again while the stage
   // moves away from it raises another alarm.
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -81,8 +88,14 @@ void PunchLift::stop_gently() {
   while (stage.is_moving() && !devices.needs_recovery() && clock.awake_s() < deadline_s) pump();
 }
 
+std::string PunchLift::stopped_as_wrong(double rise_N) {
+  is_force_left = true;
+  if (devices.stage().is_moving()) devices.stop_hard();
+  return wrong_way_text(rise_N);
+}
+
 // Until the stage stands. Returns why it was stopped, or "".
-std::string PunchLift::watch(double highest_N, double deadline_s) {
+std::string PunchLift::watch(double before_N, double deadline_s) {
   Stage& stage = devices.stage();
   // Readings may go on and make no force, or repeat one while the punch still presses.
   SilenceWatch no_force(clock.speed() > 1.0 ? kNoForceEmulated_wall_s : kNoForce_wall_s);
@@ -92,6 +105,7 @@ std::string PunchLift::watch(double highest_N, double deadline_s) {
   bool is_stopping = false;
   while (stage.is_moving() && clock.awake_s() < deadline_s) {
     pump();
+    if (rises()) return stopped_as_wrong(readings.rise_N());
     if (!is_watched()) continue;
     if (devices.needs_recovery()) return kStoppedEarly;  // at once, by a person
     const double now_N = readings.force_N();
@@ -103,14 +117,12 @@ std::string PunchLift::watch(double highest_N, double deadline_s) {
     // Only fresh readings show that the stage goes the right way.
     const bool is_blind =
         !devices.is_cell_usable() || devices.silence().has_value() || no_force.is_silent(period_s);
-    if (is_blind || std::abs(now_N) > highest_N) {
+    if (is_blind) {
       devices.stop_hard();
-      if (is_blind) {
-        return "THE LOAD CELL SHOWS NO NEW FORCE while the punch is lifted: lift it by hand";
-      }
-      return std::string("THE FORCE RISES while the punch is lifted: ") +
-             (options.watches ? "check toward_specimen of the rig file, and " : "") +
-             "lift it by hand";
+      return "THE LOAD CELL SHOWS NO NEW FORCE while the punch is lifted: lift it by hand";
+    }
+    if (std::abs(now_N) > before_N + options.pressing_N) {
+      return stopped_as_wrong(std::abs(now_N) - before_N);
     }
     if (is_stopping || !is_stop_asked()) continue;
     stage.stop_soft();
@@ -138,9 +150,16 @@ std::string PunchLift::lift(double share) {
   if (has_way) {
     const double speed_m_s =
         is_watched() ? std::min(options.speed_m_s, kWatchedSpeed_m_s) : options.speed_m_s;
+    const double seen_s =
+        was_moving ? press_seen_after_s(devices.load_cell().period_s(), clock.from_wall_s(1.0))
+                   : 0.0;
+    // A move away that a limit has ended goes on here, and may have shown already where it goes.
+    readings.watch_rise({.from_s = clock.now_s() + seen_s, .goes_on = readings.is_rise_open()});
+    if (rises()) return stopped_as_wrong(readings.rise_N());
     stage.begin_move(to_m, speed_m_s, "retract");
     const double deadline_s = clock.awake_s() + kStandstill_wall_s + (from_m - to_m) / speed_m_s;
-    const std::string stopped = watch(before_N + options.pressing_N, deadline_s);
+    const std::string stopped = watch(before_N, deadline_s);
+    readings.forget_rise();
     if (stopped.empty() || stopped == kStoppedEarly) lifted_m = from_m - stage.position_m();
     if (!stopped.empty()) return stopped;
   }

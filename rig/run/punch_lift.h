@@ -19,6 +19,9 @@ struct SafeEnd {
   bool is_force_left = false;  // after the lift the force is not that of a free punch
 };
 
+// What a force that has risen by so much in a move away from the specimen means.
+std::string wrong_way_text(double rise_N);
+
 // Stops the stage, unlocks it if it locked itself, lifts the punch and checks that the force falls
 // to the zero of the tare, if that is known.
 // Tries four times; each further try lifts by half the distance, because a stage that refuses to go
@@ -35,6 +38,8 @@ struct PunchLift {
     // cannot be read stops it, as after a lost position.
     bool watches = false;
     const std::atomic<bool>* stop = nullptr;  // ends a watched lift; nullptr: nothing does
+    // A force that rises by more stops every lift at once, unless no reading shows it.
+    double most_rise_N = 0.0;
   };
   ServedDevices& devices;
   ForceReadings& readings;
@@ -42,6 +47,7 @@ struct PunchLift {
   Pump pump;  // serves both devices
   Options options;
   double lifted_m = 0.0;  // so far
+  bool was_moving = false;
   bool is_force_left = false;
   double pressed_m =
       std::numeric_limits<double>::infinity();  // the way to here, once the position is lost
@@ -52,8 +58,13 @@ struct PunchLift {
   void stop_gently();
   bool is_only_stopped() const { return std::isinf(options.retract_to_m); }
   bool is_watched() const { return options.watches || devices.is_position_lost(); }
+  bool rises() const {
+    return options.blind.empty() && !devices.is_cell_restarted() &&
+           readings.rise_N() > options.most_rise_N;
+  }
   bool is_stop_asked() const { return options.stop != nullptr && *options.stop; }
-  std::string watch(double highest_N, double deadline_s);
+  std::string watch(double before_N, double deadline_s);
+  std::string stopped_as_wrong(double rise_N);
   std::string lift(double share);
   std::string trouble_with_force(double before_N, bool was_pressing);
   SafeEnd ended(const std::string& trouble) const { return {lifted_m, trouble, is_force_left}; }

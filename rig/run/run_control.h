@@ -86,6 +86,12 @@ class ForceDoesNotFollow : public RigError {
   using RigError::RigError;
 };
 
+// The force rose in a move away from the specimen, so no further one may follow.
+class StageGoesWrongWay : public RigError {
+ public:
+  using RigError::RigError;
+};
+
 // After the last lift the force says that the punch still presses.
 class PunchNotFree : public RigError {
  public:

@@ -14,6 +14,7 @@ constexpr double kLongestStep_m = 25e-6;
 constexpr double kSureSigmas = 40.0;  // of the noise: a rise that others are compared with
 // At usual speeds the force rises by less than its reserve between soft limit and capacity.
 constexpr double kUnwatched_wall_s = 0.4;
+constexpr const char* kByHand = "lift";  // purpose of the lifts before a test, and by hand
 
 }  // namespace
 
@@ -147,6 +148,16 @@ void RunSession::press(double to_m, double speed_m_s, const std::string& purpose
 
 void RunSession::move_once(double to_m, double speed_m_s, const std::string& purpose,
                            std::optional<double> stop_above_N) {
+  const bool is_away = to_m < stage().position_m();
+  if (is_away) {
+    // Before the tare of a test the punch may have pulled.
+    const double least_N = purpose == kByHand ? std::max(0.0, -readings_.tare_N()) : 0.0;
+    readings_.watch_rise(
+        {std::max(clock_.now_s(), pressed_until_s_), least_N, purpose == away_purpose_});
+  } else {
+    readings_.forget_rise();
+  }
+  away_purpose_ = is_away ? purpose : "";
   stage().begin_move(to_m, speed_m_s, purpose);
   has_moved_ = true;
   const bool has_begun = stage().is_moving();
@@ -158,6 +169,12 @@ void RunSession::move_once(double to_m, double speed_m_s, const std::string& pur
       is_stopping = true;
       is_pressing_ = false;  // it comes to rest without more readings
     }
+  }
+  if (is_away) {
+    readings_.end_rise(clock_.now_s());
+  } else {
+    pressed_until_s_ =
+        clock_.now_s() + press_seen_after_s(load_cell().period_s(), clock_.from_wall_s(1.0));
   }
   if (has_begun) lag_s_ = std::max(lag_s_, stage().lag_s());
   // Readings made before standstill may still be on their way.

@@ -19,7 +19,7 @@ struct RunOutcome {
   std::string cause;   // the reason without the final position of the punch
   // Of an early end, for programs: "force-limit" | "interrupted" | "device-lost" |
   // "device-restarted" | "stage-alarm" | "readings-old" | "pressing" | "cell-dead" |
-  // "no-response" | "not-lifted" | "device" | "failed".
+  // "no-response" | "wrong-way" | "not-lifted" | "device" | "failed".
   std::string code;
   std::string phase;  // the one in which it ended early
   Preflight expected;

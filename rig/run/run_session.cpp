@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace viscard {
 namespace {
@@ -114,6 +115,9 @@ void RunSession::take_sample(const LoadSample& sample) {
                                          load_cell().period_s(), stage().is_moving());
   if (action == GuardAction::kNone || action == GuardAction::kWarn) take_life(sample, made_at_s);
   if (is_guarded_) {
+    const bool is_limit = action == GuardAction::kSoftStop || action == GuardAction::kHardStop;
+    const double rise_N = readings_.rise_N();
+    if (!is_wild_ && rise_N > (is_limit ? judged_N() : most_rise_N())) end_wrong_way(rise_N);
     act_on(action, force_N);
   } else if (action == GuardAction::kHardStop) {
     stop_hard_while_stopping(force_N);
@@ -149,7 +153,12 @@ void RunSession::act_on(GuardAction action, double force_N) {
       event("limit", "warn", "The force of " + force_text(force_N) + " nears the cell's limit");
       return;
     case GuardAction::kSoftStop:
-      if (stage().is_moving()) stage().stop_soft();
+      // No way to slow down is left if the stage goes the wrong way.
+      if (stage().is_moving() && readings_.is_rise_open() && force_N > 0.0) {
+        devices_.stop_hard();
+      } else if (stage().is_moving()) {
+        stage().stop_soft();
+      }
       event("limit", "soft",
             "The force of " + force_text(force_N) + " is above the limit of " +
                 force_text(guard_.soft_limit_N()) + ": the stage is stopped");
@@ -205,6 +214,9 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
     throw LimitReached(reached +
                        ", while the stage was homed after the test. Look what touches the punch or "
                        "pulls at the load cell, then start the run again");
+  }
+  if (readings_.is_rise_open()) {
+    throw LimitReached(reached + ", in a move away from the specimen");
   }
   if (!progress_.has_contact()) {
     throw LimitReached(reached +
@@ -287,7 +299,8 @@ SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s,
                  clock_,
                  [this] { pump(); },
                  {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
-                  zero_drift_N, !has_moved_, can_stop ? control_.stop : nullptr}};
+                  zero_drift_N, !has_moved_, can_stop ? control_.stop : nullptr,
+                  is_wild_ ? std::numeric_limits<double>::infinity() : most_rise_N()}};
   return lift.carry_out();
 }
 

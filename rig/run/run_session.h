@@ -69,9 +69,15 @@ class RunSession {
                                             double implied_N, double change_N);
   // Smallest change of the force that is judged: more than noise, far less than the cell can bear.
   double judged_N() const;
-  // Moves and waits for standstill. While it presses, the readings must be younger than AgeWatch
-  // allows, otherwise ReadingsTooOld is thrown after an immediate stop; if they come too rarely for
-  // that, the stage moves in steps and waits for a reading after each.
+  // The force may rise so much, and no more, in a move away from the specimen.
+  double most_rise_N() const;
+  // The force rose in a move away from the specimen: stops the stage at once and ends the run.
+  [[noreturn]] void end_wrong_way(double rise_N);
+  // Moves and waits for standstill. Away from the specimen the force must not rise
+  // (StageGoesWrongWay); moves of one purpose in a row count as one. While it presses, the readings
+  // must be younger than AgeWatch allows, otherwise ReadingsTooOld is thrown after an immediate
+  // stop; if they come too rarely for that, the stage moves in steps and waits for a reading after
+  // each.
   // Returns true, after a gentle stop, if the force passed
   // stop_above_N (from the tare) in either direction: if the load cell is wired the other way
   // round, its force falls while the punch presses.
@@ -193,6 +199,8 @@ class RunSession {
   std::deque<Place> places_;  // of the move that presses, oldest first
   double pressed_from_m_ = 0.0, pressed_from_N_ = 0.0;
   RiseWatch rise_;
+  std::string away_purpose_;      // of the last move, if it went away from the specimen
+  double pressed_until_s_ = 0.0;  // when the force of the last press is known
   double noise_N_ = 0.0;
   double lag_s_ = 0.0;
   std::int64_t n_at_rest_ = 0;  // readings since the stage stands still

@@ -12,6 +12,7 @@ constexpr double kJudgedShare = 0.01;   // of the capacity
 constexpr double kJudgedSigmas = 12.0;  // of the noise of one reading
 constexpr double kUnfollowed = 0.05;    // of the capacity: so much is implied when a move is judged
 constexpr double kBlindRise = 0.10;     // of the capacity: the force may not rise by more unseen
+constexpr double kRiseShare = 0.1;      // of the soft limit, in a move away from the specimen
 constexpr std::int64_t kFewestEqual = 3;
 constexpr double kChange_wall_s = 1.0;  // beyond the time of the longest stretch
 
@@ -123,6 +124,20 @@ double RunSession::implied_N(double from_m, double to_m) const {
 
 double RunSession::judged_N() const {
   return std::max(kJudgedSigmas * noise_N_, kJudgedShare * rig_.calibration.capacity_N);
+}
+
+double RunSession::most_rise_N() const {
+  return std::max(kRiseShare * guard_.soft_limit_N(), judged_N());
+}
+
+void RunSession::end_wrong_way(double rise_N) {
+  const bool was_moving = stage().is_moving();
+  readings_.forget_rise();
+  if (was_moving) devices_.stop_hard();
+  event("limit", "away",
+        "The force rose by " + text_from_number(rise_N * 1e3, 1) +
+            " mN in a move away from the specimen" + (was_moving ? ": the stage was reset" : ""));
+  throw StageGoesWrongWay(wrong_way_text(rise_N));
 }
 
 bool RunSession::follows(double implied_N, double change_N) const {

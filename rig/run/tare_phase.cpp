@@ -17,6 +17,7 @@ constexpr double kProbeMean_s = 0.25;
 constexpr double kFewestOfTare = 20.0;  // readings
 constexpr double kChangeSigmas = 6.0;   // of the difference of two means
 constexpr double kChangeOfTouch = 0.5;  // of contact_force: a smaller change is no contact
+constexpr double kTwice = 1.5;          // of the change in the lift: it was made again
 constexpr double kStillChanging = 0.3;  // of the change in the lift
 constexpr double kAlmost = 0.8;         // of the way of a lift: here the force must have gone
 
@@ -139,6 +140,9 @@ void refuse_drift(TestRun& run, const ForceMean& change) {
 [[noreturn]] void refuse_wrong_way(TestRun& run, double change_N) {
   const double way_m = lifted_m(run);
   run.session.move(run.start_m, run.plan.approach_speed_m_s, "lift");
+  // A stage that goes the wrong way goes back; one that knows one way only has pressed twice.
+  const double back_N = run.session.mean_force(kProbeMean_s).force_N;
+  if (back_N > kTwice * change_N) run.session.end_wrong_way(back_N);
   const int sign = run.rig.stage.toward_specimen;
   const bool is_positive = run.rig.load_cell.compression_is_positive;
   throw RigError(

@@ -35,16 +35,20 @@ double zero_drift_N(const TestRun& run) {
   return share * run.plan.contact_force_N + kZeroDrift * run.session.peak_force_N();
 }
 
-void check_lifted(TestRun& run, double before_N) {
+double lift_mean_s(const TestRun& run) {
+  return std::max(kLiftMean_s, kLiftMeanReadings * run.session.load_cell().period_s());
+}
+
+bool check_lifted(TestRun& run, double before_N, LiftEnd when) {
   RunSession& session = run.session;
-  const double duration_s =
-      std::max(kLiftMean_s, kLiftMeanReadings * session.load_cell().period_s());
-  const ForceMean after = session.mean_force(duration_s);
+  const ForceMean after = session.mean_force(lift_mean_s(run));
   const double allowed_N = zero_drift_N(run) + felt_difference_N(run.outcome.noise_N, after.n);
   const double rest_N = after.force_N;
-  if (std::abs(rest_N) <= allowed_N) return;
-  const std::string text = "after the lift the force is " + text_from_number(rest_N, 3) +
-                           " N and not the zero of the tare within " +
+  if (std::abs(rest_N) <= allowed_N) return true;
+  const bool is_now = when == LiftEnd::kNow;
+  const std::string text = (is_now ? "after the lift the force is "
+                                   : "after the lift the punch was free, and now the force is ") +
+                           text_from_number(rest_N, 3) + " N and not the zero of the tare within " +
                            text_from_number(allowed_N, 3) + " N";
   const std::string place =
       "; by the stage's count the punch is " +
@@ -52,15 +56,18 @@ void check_lifted(TestRun& run, double before_N) {
       " mm above the contact";
   if (std::abs(rest_N) > kHardlyFallen * std::abs(before_N)) {
     run.is_place_doubtful = true;
-    throw PunchNotFree("THE PUNCH MAY STILL PRESS: " + text + place +
-                       ". Lift it by hand. Either the motor does not turn (supply, cable, enable "
-                       "input of its driver), or the load cell does not measure");
+    throw PunchNotFree("THE PUNCH MAY STILL PRESS: " + text + place + ". Lift it by hand. Either " +
+                       (is_now ? "the motor does not turn (supply, cable, enable input of its "
+                                 "driver), or the load cell does not measure"
+                               : "the axis sinks (its weight, a motor without a holding current), "
+                                 "or the zero of the load cell has jumped"));
   }
   run.outcome.doubts.insert(run.outcome.doubts.begin(),
                             text + place +
                                 ". Look whether it is free of the specimen; otherwise the zero has "
                                 "drifted, and the forces of this run with it");
   session.event("doubt", "after_lift", run.outcome.doubts.front());
+  return false;
 }
 
 ContactEstimate contact_from_stops(const JogEnd& before, const JogEnd& touched, double noise_N,

@@ -41,9 +41,13 @@ double live_depth_m(TestRun& run);
 // How far the zero may have drifted since the tare, N; less before the contact, soon after it.
 double zero_drift_N(const TestRun& run);
 
-// After the last lift: the force must be the zero again, within what a cell drifts. Throws
-// PunchNotFree if it is not and has hardly fallen; a smaller rest is a doubt.
-void check_lifted(TestRun& run, double before_N);
+// After the last lift and before the end of the run: the force must be the zero again, within what
+// a cell drifts. Throws PunchNotFree if it is not and is not far below the one before the lift; a
+// smaller rest is a doubt. True if it is the zero.
+enum class LiftEnd { kNow, kLater };
+bool check_lifted(TestRun& run, double before_N, LiftEnd when);
+// So long are the readings that it judges.
+double lift_mean_s(const TestRun& run);
 
 // Keeps the deepest indentation so far as outcome.achieved_depth_m.
 void note_depth(TestRun& run);

@@ -80,4 +80,34 @@ TEST_CASE("the sound force is the newest one unless that stands out", "[rig]") {
   CHECK(readings_of(rig, {0.012}).sound_force_N(kNoise_N) == Approx(0.012));
 }
 
+TEST_CASE("the force rises in a move away only by what was read after its start", "[rig]") {
+  const RigConfig rig = rig_with_force_gauge();
+  ForceReadings readings = readings_of(rig, {0.3, 0.3, 0.3});
+  const auto take = [&](double force_N, double made_at_s) {
+    LoadSample sample;
+    sample.force_N = force_N;
+    readings.take(sample, made_at_s);
+    return readings.rise_N();
+  };
+  readings.watch_rise({.from_s = 1.0});
+  CHECK(take(0.5, 0.8) <= 0.0);  // late readings of the press before it
+  CHECK(take(0.5, 0.9) <= 0.0);
+  CHECK(take(0.45, 1.1) <= 0.0);
+  CHECK(take(9.0, 1.2) <= 0.0);  // one garbled digit
+  CHECK(take(0.45, 1.3) <= 0.0);
+  take(0.7, 1.4);
+  CHECK(take(0.7, 1.5) == Approx(0.2));
+  readings.watch_rise({.from_s = 2.0, .goes_on = true});
+  CHECK(take(0.7, 2.1) == Approx(0.2));
+  readings.end_rise(2.2);
+  take(0.7, 2.3);
+  CHECK(take(5.0, 2.4) == Approx(0.2));
+  // A punch that is pulled comes free at zero.
+  take(-0.5, 2.5);
+  take(-0.5, 2.6);
+  readings.watch_rise({.from_s = 2.7});
+  take(0.01, 2.8);
+  CHECK(take(0.01, 2.9) == Approx(0.01));
+}
+
 }  // namespace viscard

@@ -169,6 +169,66 @@ TEST_CASE("a punch that is not lifted by a dead motor has one reason, on coarse 
                            !Contains("NOT LIFTED") && !Contains("$20"));
 }
 
+TEST_CASE("a stage whose direction sticks presses once, and nothing lifts it any further",
+          "[rig][pty]") {
+  const std::string phase = GENERATE("approach+2.3", "hold", "recovery+0.5", "retract");
+  const FaultedRun run = run_with(rig_with("direction-stuck@" + phase));
+  INFO(phase << ": " << run.said << " " << run.bench.peak_force_N);
+  // An unloading by 4 mm/s passes the force limit within one reading.
+  CHECK(run.outcome.code == (phase == "hold" ? "force-limit" : "wrong-way"));
+  CHECK_THAT(run.said, Contains("direction (DIR) wire") && Contains("THE PUNCH PRESSES") &&
+                           Contains("by its count, which is in doubt") &&
+                           !Contains("motor does not turn") && !Contains("FALL"));
+  CHECK(run.bench.peak_force_N < demo_rig().calibration.capacity_N);
+}
+
+TEST_CASE("a creep whose steps away press ends before the force limit or soon after it",
+          "[rig][pty]") {
+  TestPlan plan = short_plan();
+  plan.protocol = "creep";
+  plan.creep.force_N = GENERATE(1.2, 1.8);
+  plan.creep.ramp_s = 1.0;
+  plan.creep.hold_s = 6.0;
+  const FaultedRun run = run_with(rig_with("direction-stuck@ramp+0.9"), plan);
+  INFO(run.said << " " << run.bench.peak_force_N);
+  CHECK_THAT(run.said, Contains("direction (DIR) wire"));
+  CHECK(run.bench.peak_force_N < demo_rig().calibration.capacity_N);
+}
+
+TEST_CASE("the lift after an interruption is stopped when it presses", "[rig][pty]") {
+  RigFixture rig(rig_with("direction-stuck@hold"));
+  when_phase(rig, "hold", [&rig] {
+    rig.emulated.enter_phase("hold");
+    rig.stop = true;
+  });
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.code == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("direction (DIR) wire") && Contains("THE PUNCH PRESSES") &&
+                                 !Contains("lifted by"));
+  CHECK(rig.emulated.outcome().peak_force_N < demo_rig().calibration.capacity_N);
+}
+
+TEST_CASE("an unloading at once after a fast press is no move the wrong way", "[rig][pty]") {
+  EmulatedRigOptions options = rig_with("direction-stuck@never");
+  options.truth.sample_rate_Hz = options.config.load_cell.expected_rate_Hz = GENERATE(20.0, 80.0);
+  TestPlan plan = short_plan();
+  plan.approach_speed_m_s = 0.05e-3;
+  plan.ramp_s = 0.6;
+  plan.hold_s = 0.0;
+  const FaultedRun run = run_with(options, plan);
+  INFO(run.said);
+  CHECK(run.outcome.status == "finished");
+}
+
+TEST_CASE("an axis that sinks after the lift is no finished run", "[rig][pty]") {
+  const FaultedRun run = run_with(rig_with("sinks@baseline_after"));
+  INFO(run.said << " " << run.bench.peak_force_N);
+  CHECK(run.outcome.code == "not-lifted");
+  CHECK_THAT(run.said, Contains("the punch was free, and now the force is") &&
+                           Contains("the axis sinks") && Contains("by hand"));
+}
+
 TEST_CASE("a zero that drifts during a run is a doubt that says where the punch is", "[rig][pty]") {
   RigFixture rig(rig_with("dead-motor@never"));
   when_phase(rig, "hold", [&rig] { rig.emulated.hang_weight(0.1); });
