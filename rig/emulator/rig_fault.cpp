@@ -10,11 +10,12 @@
 namespace viscard {
 namespace {
 
-constexpr std::array<std::pair<RigFaultKind, const char*>, 13> kFaults{
+constexpr std::array<std::pair<RigFaultKind, const char*>, 14> kFaults{
     {{RigFaultKind::kFrozen, "frozen"},
      {RigFaultKind::kZeros, "zeros"},
      {RigFaultKind::kOpenWire, "open-wire"},
      {RigFaultKind::kDriftingWire, "drifting-wire"},
+     {RigFaultKind::kHalfGain, "half-gain"},
      {RigFaultKind::kSaturation, "saturation"},
      {RigFaultKind::kFastReadings, "fast-readings"},
      {RigFaultKind::kSlowReadings, "slow-readings"},

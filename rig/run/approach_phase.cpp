@@ -303,11 +303,16 @@ void carry_out_approach(TestRun& run) {
   run.session.expect_stiffness(contact.least_stiffness_N_m);
   use_stiffness(run, contact.stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
+  run.contact_N_m =
+      contact.stiffness_N_m > 0.0 ? contact.stiffness_N_m : contact.least_stiffness_N_m;
+  if (contact.stiffness_N_m > 0.0) {
+    const double step_m = 1.0 / run.session.stage().dynamics().steps_per_m;
+    run.contact_u = std::hypot(difference_N(run) / (touch.at.force_N - touch.before.force_N),
+                               step_m / (touch.at.position_m - touch.before.position_m));
+  }
   back_off(run, contact.position_m, touch.at.force_N);
   // It rose when the stage pressed, and went when the stage lifted.
   run.is_proven = true;
-  run.contact_N_m =
-      contact.stiffness_N_m > 0.0 ? contact.stiffness_N_m : contact.least_stiffness_N_m;
   run.session.expect_force(run.contact_m, run.contact_N_m);
 }
 

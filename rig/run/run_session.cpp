@@ -87,6 +87,14 @@ void RunSession::pump_until_received(double time_s) {
   }
 }
 
+std::optional<ForceMean> RunSession::mean_until_received(double time_s, double mean_s) {
+  readings_.collect_from(time_s - mean_s);
+  pump_until_received(time_s);
+  readings_.stop_collecting();
+  if (readings_.n_collected() < kFewestReadings) return std::nullopt;
+  return readings_.collected_mean();
+}
+
 void RunSession::expect_force(double contact_m, double stiffness_N_m) {
   follow_ = {contact_m, stiffness_N_m};
   step_N_ = stiffness_N_m / stage().dynamics().steps_per_m;

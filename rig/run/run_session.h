@@ -48,6 +48,10 @@ class RunSession {
   // second of wall time: on a busy machine they arrive late.
   void pump_until_received(double time_s);
 
+  // The same, and the mean over the readings of the last mean_s of it; nothing if fewer than five
+  // came.
+  std::optional<ForceMean> mean_until_received(double time_s, double mean_s);
+
   // The stiffness of specimen and frame in series is at least this. Each move toward the specimen
   // is judged by the largest value so far.
   void expect_stiffness(double stiffness_N_m);
