@@ -10,11 +10,12 @@
 namespace viscard {
 namespace {
 
-constexpr std::array<std::pair<RigFaultKind, const char*>, 14> kFaults{
+constexpr std::array<std::pair<RigFaultKind, const char*>, 15> kFaults{
     {{RigFaultKind::kFrozen, "frozen"},
      {RigFaultKind::kZeros, "zeros"},
      {RigFaultKind::kOpenWire, "open-wire"},
      {RigFaultKind::kDriftingWire, "drifting-wire"},
+     {RigFaultKind::kNoExcitation, "no-excitation"},
      {RigFaultKind::kHalfGain, "half-gain"},
      {RigFaultKind::kSaturation, "saturation"},
      {RigFaultKind::kFastReadings, "fast-readings"},

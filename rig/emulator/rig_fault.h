@@ -12,6 +12,7 @@ enum class RigFaultKind {
   kZeros,         // each reading is exactly 0
   kOpenWire,      // each reading is the end of the converter's range
   kDriftingWire,  // noise and a drifting offset that no force moves
+  kNoExcitation,  // noise about the zero, whatever presses
   kHalfGain,
   kSaturation,    // the amplifier clips at a quarter of the cell's full scale
   kFastReadings,  // three times as many readings per second

@@ -35,6 +35,8 @@ struct PunchLift {
     // cannot be read stops it, as after a lost position.
     bool watches = false;
     const std::atomic<bool>* stop = nullptr;  // ends a watched lift; nullptr: nothing does
+    bool knows_sign =
+        false;  // the touch has shown that a punch that presses makes a positive force
   };
   ServedDevices& devices;
   ForceReadings& readings;

@@ -147,6 +147,7 @@ void RunSession::press(double to_m, double speed_m_s, const std::string& purpose
 
 void RunSession::move_once(double to_m, double speed_m_s, const std::string& purpose,
                            std::optional<double> stop_above_N) {
+  hold_.end();
   stage().begin_move(to_m, speed_m_s, purpose);
   has_moved_ = true;
   const bool has_begun = stage().is_moving();

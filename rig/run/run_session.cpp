@@ -111,6 +111,7 @@ void RunSession::take_sample(const LoadSample& sample) {
   is_doubtful_ = is_doubtful;
   if (!is_doubtful) {
     ages_.take(force_N, made_at_s);
+    take_hold(force_N, made_at_s);
     progress_.report_reading(made_at_s, force_N, stage().position_m(), stage().is_moving());
   }
   std::optional<double> value;
@@ -282,14 +283,16 @@ void RunSession::event(const std::string& name, const std::string& value, const 
 SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s,
                               std::optional<double> zero_drift_N) {
   is_guarded_ = false;
+  hold_.end();
   // A stop that has ended the run does not end its lift.
   const bool can_stop = !has_moved_ && control_.stop != nullptr && !*control_.stop;
-  PunchLift lift{devices_,
-                 readings_,
-                 clock_,
-                 [this] { pump(); },
-                 {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
-                  zero_drift_N, !has_moved_, can_stop ? control_.stop : nullptr}};
+  PunchLift lift{
+      devices_,
+      readings_,
+      clock_,
+      [this] { pump(); },
+      {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
+       zero_drift_N, !has_moved_, can_stop ? control_.stop : nullptr, follow_.stiffness_N_m > 0.0}};
   return lift.carry_out();
 }
 

@@ -6,6 +6,7 @@
 #include "rig/run/age_watch.h"
 #include "rig/run/force_guard.h"
 #include "rig/run/force_readings.h"
+#include "rig/run/hold_watch.h"
 #include "rig/run/life_watch.h"
 #include "rig/run/punch_lift.h"
 #include "rig/run/rise_watch.h"
@@ -87,6 +88,10 @@ class RunSession {
   bool lift(double to_m, double speed_m_s, const std::string& purpose, double limit_N);
   // How late the stage was in the latest of the moves since the last call (Stage::lag_s).
   double take_lag_s() { return std::exchange(lag_s_, 0.0); }
+  // From now on the stage stands in contact: a force that jumps, or rises by more than rise_N, is a
+  // doubt. Only the first one of a run is noted. Ends with the next move.
+  void watch_hold(const std::string& phase, std::optional<double> rise_N);
+  bool has_hold_changed() const { return has_hold_changed_; }
   // Mean over the readings made from now on, for at least six periods. Throws RigError if fewer than five
   // arrive.
   ForceMean mean_force(double asked_s);
@@ -144,6 +149,7 @@ class RunSession {
   void check_stream();
   void check_age();
   void check_lateness();
+  void take_hold(double force_N, double made_at_s);
   void take_life(const LoadSample& sample, double made_at_s);
   void check_life();
   void note_wild();
@@ -195,6 +201,9 @@ class RunSession {
   std::deque<Place> places_;  // of the move that presses, oldest first
   double pressed_from_m_ = 0.0, pressed_from_N_ = 0.0;
   RiseWatch rise_;
+  HoldWatch hold_;
+  std::string held_phase_;
+  bool has_hold_changed_ = false;
   double noise_N_ = 0.0;
   double lag_s_ = 0.0;
   std::int64_t n_at_rest_ = 0;  // readings since the stage stands still

@@ -25,12 +25,15 @@ class UnloadCheck {
   void judge();
 
  private:
+  void judge_lost_steps(double least_N, double force_N);
+
   struct Press {
     double way_m = 0.0, peak_N = 0.0, took_s = 0.0;
   };
   TestRun& run_;
   std::optional<Press> press_;  // the first one, from the contact
   std::optional<double> least_N_;
+  double before_N_ = 0.0;
   double unloaded_m_ = 0.0;
   double relaxed_N_ = 0.0;
 };
