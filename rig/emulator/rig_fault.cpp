@@ -10,7 +10,7 @@
 namespace viscard {
 namespace {
 
-constexpr std::array<std::pair<RigFaultKind, const char*>, 15> kFaults{
+constexpr std::array<std::pair<RigFaultKind, const char*>, 16> kFaults{
     {{RigFaultKind::kFrozen, "frozen"},
      {RigFaultKind::kZeros, "zeros"},
      {RigFaultKind::kOpenWire, "open-wire"},
@@ -22,6 +22,7 @@ constexpr std::array<std::pair<RigFaultKind, const char*>, 15> kFaults{
      {RigFaultKind::kSlowReadings, "slow-readings"},
      {RigFaultKind::kDeadMotor, "dead-motor"},
      {RigFaultKind::kLostSteps, "lost-steps"},
+     {RigFaultKind::kPlay, "play"},
      {RigFaultKind::kStageStall, "stage-stall"},
      {RigFaultKind::kLoadCellPort, "load-cell-port"},
      {RigFaultKind::kStagePort, "stage-port"},

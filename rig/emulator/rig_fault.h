@@ -19,6 +19,7 @@ enum class RigFaultKind {
   kSlowReadings,  // 10 readings per second
   kDeadMotor,     // the stage counts on, its motor stands
   kLostSteps,     // toward the specimen and under load every fifth step is lost
+  kPlay,          // 30 um between screw and punch when the stage turns round
   kLoadCellPort,  // the port hangs up
   kStageStall,    // the stage's controller does nothing for half a second, then goes on
   kStagePort,

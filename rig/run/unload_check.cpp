@@ -11,6 +11,8 @@ namespace {
 constexpr double kContactError = 0.025;  // of the peak: the contact is known to some um
 constexpr double kStillRelaxing = 0.3;   // of what has relaxed in the hold, until judge()
 constexpr double kSeen_s = 0.5;
+constexpr double kLeastPlay_m = 5e-6;
+constexpr double kFewestStepsOfPlay = 4.0;  // of the motor
 
 }  // namespace
 
@@ -46,6 +48,7 @@ void UnloadCheck::judge() {
   if (run_.session.has_hold_changed()) return;
   const double force_N = run_.session.sound_force_N(run_.outcome.noise_N);
   if (least_N > 0.0) judge_lost_steps(least_N, force_N);
+  judge_play(force_N);
 }
 
 void UnloadCheck::judge_lost_steps(double least_N, double force_N) {
@@ -63,6 +66,25 @@ void UnloadCheck::judge_lost_steps(double least_N, double force_N) {
       " um or more. Depth and modulus of this run are then wrong. Lower the speed or the "
       "acceleration, or raise the motor's current");
   run_.session.event("doubt", "lost_steps", run_.outcome.doubts.back());
+}
+
+void UnloadCheck::judge_play(double force_N) {
+  const double most_N = before_N_ * (1.0 - unloaded_m_ / press_->way_m);
+  const double step_m = 1.0 / run_.session.stage().dynamics().steps_per_m;
+  const double stiffness_N_m = before_N_ / press_->way_m;
+  const double contact_N = knows_stiffness(run_) ? 0.0 : kContactError * press_->peak_N;
+  const double slack_N = stiffness_N_m * std::max(kLeastPlay_m, kFewestStepsOfPlay * step_m) +
+                         contact_N + 6.0 * run_.outcome.noise_N;
+  if (!(most_N > 0.0) || force_N <= most_N + slack_N) return;
+  run_.outcome.doubts.push_back(
+      "lost motion on reversal of some " +
+      text_from_number((force_N - most_N) / stiffness_N_m * 1e6, 0) +
+      " um: after an unloading by " + text_from_number(unloaded_m_ * 1e6, 1) +
+      " um by the stage's count the force is " + text_from_number(force_N * 1e3, 1) +
+      " mN, where it can be at most " + text_from_number(most_N * 1e3, 1) +
+      " mN. The screw or its coupling has play, or the contact was found wrong because of that: "
+      "contact, unloading and modulus are then wrong. Take the play out (preloaded nut, spring)");
+  run_.session.event("doubt", "lost_motion", run_.outcome.doubts.back());
 }
 
 }  // namespace viscard

@@ -205,12 +205,13 @@ TEST_CASE("a zero that jumps between touch and ramp ends the run before it press
   CHECK(rig.emulated.outcome().peak_force_N < 0.3);
 }
 
-TEST_CASE("a press that does not fit the touch, and a force that goes in a hold, are doubts",
+TEST_CASE("a press that does not fit the touch, a force that goes in a hold, and play are doubts",
           "[rig][pty]") {
   const auto [fault, word] =
       GENERATE(std::pair<std::string, std::string>{"half-gain@baseline+0.5", "far softer"},
                std::pair<std::string, std::string>{"no-excitation@hold+1.5", "jumped by -"},
-               std::pair<std::string, std::string>{"half-gain@hold+1.5", "jumped by -"});
+               std::pair<std::string, std::string>{"half-gain@hold+1.5", "jumped by -"},
+               std::pair<std::string, std::string>{"play", "lost motion on reversal"});
   const FaultedRun run = run_with(rig_with(fault));
   INFO(fault << ": " << run.said);
   CHECK(run.outcome.status == "finished");
