@@ -7,6 +7,7 @@
 #include "rig/run/count_comparison.h"
 #include "rig/run/force_phases.h"
 #include "rig/run/preflight.h"
+#include "rig/run/press_check.h"
 #include "rig/run/rest_findings.h"
 #include "rig/run/tare_phase.h"
 #include "rig/run/test_run.h"
@@ -18,12 +19,15 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace viscard {
 namespace {
 
 constexpr double kSamePlace_m = 10e-6;
 constexpr double kSeenPeriods = 5.0;   // of the readings: a shorter wait shows no force
+constexpr double kRestMean_s = 0.5;    // end of a baseline, whose mean is compared with the tare
+constexpr double kRiseInHold = 0.03;   // of the peak
 constexpr double kDepthAfter_s = 0.5;  // after a hold begins: the depth reached is noted then
 
 // Carries out the phases of one test, one after another.
@@ -116,6 +120,7 @@ class IndentationRun {
       case TestPhase::Kind::kMove:
         return go_to_depth(phase);
       case TestPhase::Kind::kLoad:
+        has_pressed_ = true;
         return force_phases_.load(phase);
       case TestPhase::Kind::kHoldForce:
         force_phases_.hold(phase);
@@ -129,16 +134,33 @@ class IndentationRun {
   // In contact the wait counts from the end of the last move, or from now if that is later.
   void wait(const TestPhase& phase) {
     RunSession& session = run_.session;
-    if (!run_.is_in_contact) return session.pump_until_received(session.now_s() + phase.duration_s);
+    if (!run_.is_in_contact) {
+      const double until_s = session.now_s() + phase.duration_s;
+      const auto rest =
+          session.mean_until_received(until_s, std::min(kRestMean_s, phase.duration_s));
+      if (rest && !has_pressed_) check_zero(run_, *rest);
+      return;
+    }
     const double end_s = session.stage().expected_end_s();
+    watch_hold(phase);
     session.pump_until(end_s + std::min(kDepthAfter_s, phase.duration_s));
     note_depth(run_);
     if (phase.duration_s > kSeenPeriods * session.load_cell().period_s()) check_last_move();
+    if (std::exchange(is_first_press_, false)) check_press(run_, depth_asked_m_);
     if (const auto due_s = unload_check_.due_after_s(); due_s && *due_s <= phase.duration_s) {
       session.pump_until(end_s + *due_s);
       unload_check_.judge();
     }
     session.pump_until(end_s + phase.duration_s);
+  }
+
+  // At a depth: a specimen that sticks to a punch at its surface may jump off.
+  void watch_hold(const TestPhase& phase) {
+    RunSession& session = run_.session;
+    if (session.stage().position_m() < run_.contact_m + kSamePlace_m) return;
+    const double rise_N = std::max(kRiseInHold * session.peak_force_N(), zero_drift_N(run_)) +
+                          felt_difference_N(run_.outcome.noise_N, 1);
+    session.watch_hold(phase.name, has_unloaded_ ? std::nullopt : std::optional(rise_N));
   }
 
   void go_to_depth(const TestPhase& phase) {
@@ -151,6 +173,8 @@ class IndentationRun {
     run_.session.move(run_.contact_m + expected.stage_travel_of(phase.depth_m), speed_m_s,
                       phase.purpose);
     unload_check_.take_move(last_move_->from_m, last_move_->force_N, way_m / speed_m_s);
+    is_first_press_ = !std::exchange(has_pressed_, true);
+    has_unloaded_ = has_unloaded_ || run_.session.stage().position_m() < last_move_->from_m;
     depth_asked_m_ = phase.depth_m;
     // The newest reading is later than the end of the move, so a hold reads its depth itself.
     const TestPhase* next = &phase + 1;
@@ -205,6 +229,9 @@ class IndentationRun {
     double from_m = 0.0, force_N = 0.0;
   };
   std::optional<LastMove> last_move_;  // in contact, not judged yet
+  bool has_pressed_ = false;           // into the specimen, beyond the touch
+  bool is_first_press_ = false;        // the last move, not judged yet
+  bool has_unloaded_ = false;          // in contact, once at least
   double depth_asked_m_ = 0.0;         // where the last phase that changed the depth has left it
   std::optional<double> lifted_to_m_;
   // The force before the last lift, after which it was free.

@@ -13,6 +13,8 @@ EmulatedCell::EmulatedCell(const EmulatedTruth& truth, const LoadCellCalibration
 }
 
 double EmulatedCell::sound_signal(double force_N, double time_s, std::int64_t index) {
+  if (fault_ == RigFaultKind::kNoExcitation) force_N = 0.0;
+  if (fault_ == RigFaultKind::kHalfGain) force_N *= 0.5;
   const double step_N = force_N - turned_N_;
   if (step_N != 0.0) direction_ = step_N > 0.0 ? 1.0 : -1.0;
   turned_N_ = force_N;

@@ -10,11 +10,13 @@
 namespace viscard {
 namespace {
 
-constexpr std::array<std::pair<RigFaultKind, const char*>, 15> kFaults{
+constexpr std::array<std::pair<RigFaultKind, const char*>, 18> kFaults{
     {{RigFaultKind::kFrozen, "frozen"},
      {RigFaultKind::kZeros, "zeros"},
      {RigFaultKind::kOpenWire, "open-wire"},
      {RigFaultKind::kDriftingWire, "drifting-wire"},
+     {RigFaultKind::kNoExcitation, "no-excitation"},
+     {RigFaultKind::kHalfGain, "half-gain"},
      {RigFaultKind::kSaturation, "saturation"},
      {RigFaultKind::kFastReadings, "fast-readings"},
      {RigFaultKind::kSlowReadings, "slow-readings"},
@@ -22,6 +24,7 @@ constexpr std::array<std::pair<RigFaultKind, const char*>, 15> kFaults{
      {RigFaultKind::kLostSteps, "lost-steps"},
      {RigFaultKind::kDirectionStuck, "direction-stuck"},
      {RigFaultKind::kSinks, "sinks"},
+     {RigFaultKind::kPlay, "play"},
      {RigFaultKind::kStageStall, "stage-stall"},
      {RigFaultKind::kLoadCellPort, "load-cell-port"},
      {RigFaultKind::kStagePort, "stage-port"},

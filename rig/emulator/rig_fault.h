@@ -12,11 +12,14 @@ enum class RigFaultKind {
   kZeros,           // each reading is exactly 0
   kOpenWire,        // each reading is the end of the converter's range
   kDriftingWire,    // noise and a drifting offset that no force moves
+  kNoExcitation,    // noise about the zero, whatever presses
+  kHalfGain,        // the amplifier halves its gain
   kSaturation,      // the amplifier clips at a quarter of the cell's full scale
   kFastReadings,    // three times as many readings per second
   kSlowReadings,    // 10 readings per second
   kDeadMotor,       // the stage counts on, its motor stands
   kLostSteps,       // toward the specimen and under load every fifth step is lost
+  kPlay,            // 30 um between screw and punch when the stage turns round
   kDirectionStuck,  // each move away from the specimen goes toward it
   kSinks,           // the punch creeps toward the specimen by 0.7 mm/s, which nothing counts
   kLoadCellPort,    // the port hangs up

@@ -298,13 +298,27 @@ void check_stiffness(TestRun& run, double least_N_m) {
       "under [approach] of the test file), or the cell drifts (an open wire)");
 }
 
-// Goes to gap_m above contact, and further if the force shows that the guessed modulus was too
-// high. touched_N: the force before.
+// A punch that still presses above a contact that the stiffness has shown: the stage counts what its
+// play takes up when it turns round.
+void doubt_play(TestRun& run, double still_N) {
+  run.outcome.doubts.push_back(
+      "lost motion on reversal of some " +
+      text_from_number((run.plan.gap_m + still_N / run.contact_N_m) * 1e6, 0) +
+      " um: by its count the stage had backed off to " + text_from_number(run.plan.gap_m * 1e6, 0) +
+      " um above the contact, and the force was still " + text_from_number(still_N * 1e3, 1) +
+      " mN. The screw or its coupling has play, or the specimen follows the punch; what an "
+      "unloading shows is then wrong. Take the play out (preloaded nut, spring)");
+  run.session.event("doubt", "lost_motion", run.outcome.doubts.back());
+}
+
+// Goes to gap_m above contact, and further if the force has not gone: then the guessed modulus was
+// too high or, if the stiffness is known, the stage has play. touched_N: the force before.
 void back_off(TestRun& run, double contact_m, double touched_N) {
   RunSession& session = run.session;
   double still_N = touched_N;
+  double to_m = contact_m - run.plan.gap_m;
   for (int i = 0; i < kMostBackOffs; ++i) {
-    session.move(contact_m - run.plan.gap_m, run.plan.retract_speed_m_s, "back off");
+    session.move(to_m, run.plan.retract_speed_m_s, "back off");
     const ForceMean free = session.mean_force(kSettle_s);
     still_N = free.force_N;
     const double rise_N = still_N - touched_N;
@@ -320,7 +334,12 @@ void back_off(TestRun& run, double contact_m, double touched_N) {
                         text_from_number(backed_off_m * 1e6, 1) + " um");
       return;
     }
-    contact_m -= run.plan.gap_m;
+    to_m -= run.plan.gap_m;
+    if (!knows_stiffness(run)) {
+      contact_m -= run.plan.gap_m;
+    } else if (i == 0 && still_N > free_N + run.plan.contact_force_N) {
+      doubt_play(run, still_N);
+    }
   }
   throw_not_released(run, touched_N, still_N);
 }
@@ -338,11 +357,16 @@ void carry_out_approach(TestRun& run) {
   check_frame(run, contact.least_stiffness_N_m);
   use_stiffness(run, contact.stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
+  run.contact_N_m =
+      contact.stiffness_N_m > 0.0 ? contact.stiffness_N_m : contact.least_stiffness_N_m;
+  if (contact.stiffness_N_m > 0.0) {
+    const double step_m = 1.0 / run.session.stage().dynamics().steps_per_m;
+    run.contact_u = std::hypot(difference_N(run) / (touch.at.force_N - touch.before.force_N),
+                               step_m / (touch.at.position_m - touch.before.position_m));
+  }
   back_off(run, contact.position_m, touch.at.force_N);
   // It rose when the stage pressed, and went when the stage lifted.
   run.is_proven = run.has_answered = true;
-  run.contact_N_m =
-      contact.stiffness_N_m > 0.0 ? contact.stiffness_N_m : contact.least_stiffness_N_m;
   run.session.expect_force(run.contact_m, run.contact_N_m);
 }
 

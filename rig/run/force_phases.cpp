@@ -3,6 +3,7 @@
 #include "models/maths/text_of_number.h"
 #include "rig/run/approach_phase.h"
 #include "rig/run/force_control.h"
+#include "rig/run/press_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,8 @@ void check_depth(TestRun& run, double deepest_m) {
   if (!(depth_m > deepest_m)) return;
   throw RigError("the specimen has crept to " + text_from_number(depth_m * 1e6, 1) +
                  " um, beyond the limit of " + text_from_number(deepest_m * 1e6, 1) +
-                 " um. Lower force or set depth_limit under [creep] of the test file");
+                 " um, or the load cell shows too small a force (supply, wire, gain): check it. "
+                 "Then lower force or set depth_limit under [creep] of the test file");
 }
 
 }  // namespace
@@ -62,6 +64,7 @@ void ForcePhases::load(const TestPhase& phase) {
   const double way_m = session.stage().position_m() - run_.contact_m;
   measured_N_m_ = std::clamp(reached.force_N / std::max(way_m, 0.1 * run_.plan.gap_m),
                              kLeastRatio * guess_N_m, guess_N_m / kLeastRatio);
+  check_way(run_, reached.force_N);
   const double rest_N = phase.force_N - reached.force_N;
   if (rest_N <= 0.0) return;
   session.move(session.stage().position_m() + rest_N / measured_N_m_, speed_m_s, phase.purpose,

@@ -314,6 +314,11 @@ Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& 
     result.ramp_speed_m_s = result.stage_travel_of(first_m) / phase.move_s;
     break;
   }
+  if (rig.stage.backlash_m > 0.0) {
+    result.warnings.push_back(
+        "backlash under [stage] of the rig file changes nothing: contact and ramp are reached from "
+        "the same side, but an unloading loses it. Take the play out (preloaded nut, spring)");
+  }
   check_force(rig, phases, result);
   check_least_force(rig, plan, result);
   check_travel(rig, plan, result);

@@ -202,12 +202,18 @@ std::string PunchLift::trouble_with_force(double before_N, bool was_pressing) {
   // On a slow line the first of them may be older than they seem.
   const double newest_N = std::abs(readings.force_N());
   const double force_N = has_mean ? std::min(std::abs(after.force_N), newest_N) : newest_N;
+  const double free_N =
+      options.zero_drift_N.value_or(0.0) + felt_difference_N(options.noise_N, after.n);
+  if (options.knows_sign && has_mean && after.force_N < -free_N) {
+    return "after the lift the force is " + text_from_number(after.force_N, 4) +
+           " N: its zero has moved by that (the amplifier, or an open wire of the load cell), or "
+           "the specimen pulls at the punch";
+  }
   if (was_pressing && force_N > kFallen * before_N) {
     is_force_left = true;
     return "THE FORCE DOES NOT FALL after lifting the punch: lift it by hand";
   }
   if (!options.zero_drift_N || !has_mean) return "";
-  const double free_N = *options.zero_drift_N + felt_difference_N(options.noise_N, after.n);
   if (force_N <= free_N) return "";
   is_force_left = true;
   return "THE PUNCH MAY STILL PRESS: after the lift the force is " +

@@ -38,6 +38,8 @@ struct PunchLift {
     // cannot be read stops it, as after a lost position.
     bool watches = false;
     const std::atomic<bool>* stop = nullptr;  // ends a watched lift; nullptr: nothing does
+    bool knows_sign =
+        false;  // the touch has shown that a punch that presses makes a positive force
     // A force that rises by more stops every lift at once, unless no reading shows it.
     double most_rise_N = 0.0;
   };

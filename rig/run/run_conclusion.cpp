@@ -12,6 +12,7 @@
 namespace viscard {
 namespace {
 
+constexpr double kHighForce = 1.5;  // of the expected peak, which is an upper bound
 constexpr double kFlatForce = 0.2;  // of the expected peak: below this the punch hardly pressed
 constexpr double kLongGap_s = 1.0;  // wall time without a reading
 constexpr double kLongGapPeriods = 20.0;
@@ -26,6 +27,16 @@ void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
                            " N expected. Did the stage lose steps, or is modulus_guess of the "
                            "specimen far too high?");
   session.event("doubt", "force_flat", outcome.doubts.back());
+}
+
+void doubt_high_force(RunSession& session, RunOutcome& outcome) {
+  const double expected_N = outcome.expected.peak_force_N;
+  if (outcome.status != "finished" || outcome.peak_force_N <= kHighForce * expected_N) return;
+  outcome.doubts.push_back("the force reached " + text_from_number(outcome.peak_force_N, 3) +
+                           " N, where at most " + text_from_number(expected_N, 3) +
+                           " N was expected. Are punch_diameter and layer_thickness right, or is "
+                           "modulus_guess of the specimen far too low?");
+  session.event("doubt", "force_high", outcome.doubts.back());
 }
 
 // A stream of bare counts does not show whether the amplifier restarted in a long pause, and lost
@@ -133,6 +144,7 @@ void judge_record(RunSession& session, const RigConfig& rig, const RunControl& c
     record_hidden_error(session, outcome);
     doubt_line(session, outcome);
     doubt_flat_force(session, outcome);
+    doubt_high_force(session, outcome);
     doubt_temperature(session, rig, outcome);
     doubt_gap(
         session, outcome,

@@ -158,6 +158,7 @@ void RunSession::move_once(double to_m, double speed_m_s, const std::string& pur
     readings_.forget_rise();
   }
   away_purpose_ = is_away ? purpose : "";
+  hold_.end();
   stage().begin_move(to_m, speed_m_s, purpose);
   has_moved_ = true;
   const bool has_begun = stage().is_moving();

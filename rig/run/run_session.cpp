@@ -88,6 +88,14 @@ void RunSession::pump_until_received(double time_s) {
   }
 }
 
+std::optional<ForceMean> RunSession::mean_until_received(double time_s, double mean_s) {
+  readings_.collect_from(time_s - mean_s);
+  pump_until_received(time_s);
+  readings_.stop_collecting();
+  if (readings_.n_collected() < kFewestReadings) return std::nullopt;
+  return readings_.collected_mean();
+}
+
 void RunSession::expect_force(double contact_m, double stiffness_N_m) {
   follow_ = {contact_m, stiffness_N_m};
   step_N_ = stiffness_N_m / stage().dynamics().steps_per_m;
@@ -104,6 +112,7 @@ void RunSession::take_sample(const LoadSample& sample) {
   is_doubtful_ = is_doubtful;
   if (!is_doubtful) {
     ages_.take(force_N, made_at_s);
+    take_hold(force_N, made_at_s);
     progress_.report_reading(made_at_s, force_N, stage().position_m(), stage().is_moving());
   }
   std::optional<double> value;
@@ -292,15 +301,17 @@ void RunSession::event(const std::string& name, const std::string& value, const 
 SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s,
                               std::optional<double> zero_drift_N) {
   is_guarded_ = false;
+  hold_.end();
   // A stop that has ended the run does not end its lift.
   const bool can_stop = !has_moved_ && control_.stop != nullptr && !*control_.stop;
-  PunchLift lift{devices_,
-                 readings_,
-                 clock_,
-                 [this] { pump(); },
-                 {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
-                  zero_drift_N, !has_moved_, can_stop ? control_.stop : nullptr,
-                  is_wild_ ? std::numeric_limits<double>::infinity() : most_rise_N()}};
+  PunchLift lift{
+      devices_,
+      readings_,
+      clock_,
+      [this] { pump(); },
+      {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
+       zero_drift_N, !has_moved_, can_stop ? control_.stop : nullptr, follow_.stiffness_N_m > 0.0,
+       is_wild_ ? std::numeric_limits<double>::infinity() : most_rise_N()}};
   return lift.carry_out();
 }
 

@@ -6,6 +6,7 @@
 #include "rig/run/age_watch.h"
 #include "rig/run/force_guard.h"
 #include "rig/run/force_readings.h"
+#include "rig/run/hold_watch.h"
 #include "rig/run/life_watch.h"
 #include "rig/run/punch_lift.h"
 #include "rig/run/rise_watch.h"
@@ -48,6 +49,10 @@ class RunSession {
   // second of wall time: on a busy machine they arrive late.
   void pump_until_received(double time_s);
 
+  // The same, and the mean over the readings of the last mean_s of it; nothing if fewer than five
+  // came.
+  std::optional<ForceMean> mean_until_received(double time_s, double mean_s);
+
   // The stiffness of specimen and frame in series is at least this. Each move toward the specimen
   // is judged by the largest value so far.
   void expect_stiffness(double stiffness_N_m);
@@ -89,6 +94,10 @@ class RunSession {
   bool lift(double to_m, double speed_m_s, const std::string& purpose, double limit_N);
   // How late the stage was in the latest of the moves since the last call (Stage::lag_s).
   double take_lag_s() { return std::exchange(lag_s_, 0.0); }
+  // From now on the stage stands in contact: a force that jumps, or rises by more than rise_N, is a
+  // doubt. Only the first one of a run is noted. Ends with the next move.
+  void watch_hold(const std::string& phase, std::optional<double> rise_N);
+  bool has_hold_changed() const { return has_hold_changed_; }
   // Mean over the readings made from now on, for at least six periods. Throws RigError if fewer than five
   // arrive.
   ForceMean mean_force(double asked_s);
@@ -148,6 +157,7 @@ class RunSession {
   void check_stream();
   void check_age();
   void check_lateness();
+  void take_hold(double force_N, double made_at_s);
   void take_life(const LoadSample& sample, double made_at_s);
   void check_life();
   void note_wild();
@@ -201,6 +211,9 @@ class RunSession {
   RiseWatch rise_;
   std::string away_purpose_;      // of the last move, if it went away from the specimen
   double pressed_until_s_ = 0.0;  // when the force of the last press is known
+  HoldWatch hold_;
+  std::string held_phase_;
+  bool has_hold_changed_ = false;
   double noise_N_ = 0.0;
   double lag_s_ = 0.0;
   std::int64_t n_at_rest_ = 0;  // readings since the stage stands still

@@ -100,6 +100,26 @@ void RunSession::end_blind(LifeWatch::Trouble trouble) {
                    "rig check");
 }
 
+void RunSession::watch_hold(const std::string& phase, std::optional<double> rise_N) {
+  held_phase_ = phase;
+  hold_.begin({clock_.now_s(), judged_N(), rise_N});
+}
+
+void RunSession::take_hold(double force_N, double made_at_s) {
+  const auto change = hold_.take(force_N, made_at_s);
+  if (!change || has_hold_changed_) return;
+  has_hold_changed_ = true;
+  doubts_.push_back(
+      "in the phase '" + held_phase_ + "' the force " +
+      (change->is_jump ? "jumped by " : "rose by ") + text_from_number(change->by_N, 3) +
+      (change->is_jump ? " N or more " : " N within ") + text_from_number(change->after_s, 2) +
+      " s " + (change->is_jump ? "after the stage had come to rest" : "while the stage stood") +
+      ", which no specimen does: the supply or a wire of the load cell failed, its gain or zero "
+      "changed, something touched the rig, or the stage did not stand. Check these, then repeat "
+      "the run");
+  event("doubt", "hold_changed", doubts_.back());
+}
+
 // Before each move toward the specimen the readings must have changed since the last one began.
 void RunSession::await_change() {
   if (!life_.is_watching()) return;

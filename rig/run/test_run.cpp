@@ -54,7 +54,8 @@ bool check_lifted(TestRun& run, double before_N, LiftEnd when) {
       "; by the stage's count the punch is " +
       text_from_number((run.contact_m - session.stage().position_m()) * 1e3, 3) +
       " mm above the contact";
-  if (std::abs(rest_N) > kHardlyFallen * std::abs(before_N)) {
+  // A punch that presses makes no negative force.
+  if (rest_N > kHardlyFallen * std::abs(before_N)) {
     run.is_place_doubtful = true;
     throw PunchNotFree("THE PUNCH MAY STILL PRESS: " + text + place + ". Lift it by hand. Either " +
                        (is_now ? "the motor does not turn (supply, cable, enable input of its "
@@ -62,10 +63,14 @@ bool check_lifted(TestRun& run, double before_N, LiftEnd when) {
                                : "the axis sinks (its weight, a motor without a holding current), "
                                  "or the zero of the load cell has jumped"));
   }
-  run.outcome.doubts.insert(run.outcome.doubts.begin(),
-                            text + place +
-                                ". Look whether it is free of the specimen; otherwise the zero has "
-                                "drifted, and the forces of this run with it");
+  run.outcome.doubts.insert(
+      run.outcome.doubts.begin(),
+      text + place +
+          (rest_N > 0.0 ? ". Look whether it is free of the specimen; otherwise the "
+                          "zero has drifted, and the forces of this run with it"
+                        : ". The zero has moved by that, and the forces of this run "
+                          "with it: the amplifier, an open wire of the load cell; or "
+                          "the specimen pulls at the punch"));
   session.event("doubt", "after_lift", run.outcome.doubts.front());
   return false;
 }

@@ -29,8 +29,14 @@ struct TestRun {
   bool is_proven = false;          // the load cell has shown that it measures
   bool has_answered = false;       // it has answered to a force, now or on the day in the rig file
   double contact_N_m = 0.0;        // stiffness of the contact, as the approach has seen it
+  double contact_u = 1.0;          // its relative uncertainty by noise and steps; 1: a lower bound
   bool is_place_doubtful = false;  // the force contradicts the stage's count
 };
+
+// The touch has shown the stiffness of the contact within 5 %, and with it where the contact is.
+inline bool knows_stiffness(const TestRun& run) {
+  return run.contact_N_m > 0.0 && run.contact_u < 0.05;
+}
 
 // Soft limit of the force, N.
 double limit_N(const TestRun& run);

@@ -17,6 +17,15 @@ EmulatedRigOptions rig_with(const std::string& fault) {
   return options;
 }
 
+TestPlan creep_plan(double force_N) {
+  TestPlan plan = short_plan();
+  plan.protocol = "creep";
+  plan.creep.force_N = force_N;
+  plan.creep.ramp_s = 1.0;
+  plan.creep.hold_s = 4.0;
+  return plan;
+}
+
 struct FaultedRun {
   RunOutcome outcome;
   EmulatedOutcome bench;
@@ -239,6 +248,56 @@ TEST_CASE("a zero that drifts during a run is a doubt that says where the punch 
   CHECK_THAT(outcome.doubts.front(),
              Contains("after the lift the force is 0.1") && Contains("above the contact"));
   CHECK(rig.has_event("doubt", "after_lift"));
+}
+
+TEST_CASE("a zero that jumps between touch and ramp ends the run before it presses", "[rig][pty]") {
+  RigFixture rig(rig_with("dead-motor@never"));
+  when_phase(rig, "baseline", [&rig] { rig.emulated.hang_weight(-0.6); });
+  const bool is_creep = GENERATE(false, true);
+  TestPlan plan = short_plan();
+  if (is_creep) plan = creep_plan(1.0);
+  const RunOutcome outcome = rig.run(plan);
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK(outcome.phase == "baseline");
+  CHECK_THAT(outcome.reason, Contains("the zero jumped by -0.6") && !Contains("STILL PRESS") &&
+                                 !Contains("DOES NOT FALL"));
+  CHECK(rig.emulated.outcome().peak_force_N < 0.3);
+}
+
+TEST_CASE("a press that does not fit the touch, a force that goes in a hold, and play are doubts",
+          "[rig][pty]") {
+  const auto [fault, word] =
+      GENERATE(std::pair<std::string, std::string>{"half-gain@baseline+0.5", "far softer"},
+               std::pair<std::string, std::string>{"no-excitation@hold+1.5", "jumped by -"},
+               std::pair<std::string, std::string>{"half-gain@hold+1.5", "jumped by -"},
+               std::pair<std::string, std::string>{"play", "lost motion on reversal"});
+  const FaultedRun run = run_with(rig_with(fault));
+  INFO(fault << ": " << run.said);
+  CHECK(run.outcome.status == "finished");
+  CHECK_THAT(run.said, Contains(word) && !Contains("lost steps while it pressed"));
+}
+
+TEST_CASE("a force far above the expected one is a doubt, and a lower guess alone is not",
+          "[rig][pty]") {
+  const double share = GENERATE(0.5, 0.8);
+  RigFixture rig(rig_with("dead-motor@never"));
+  Specimen specimen = demo_specimen(10.0);
+  specimen.modulus_guess_Pa *= share;
+  const RunOutcome outcome = rig.run(short_plan(), specimen);
+  INFO(share << outcome.reason);
+  CHECK(outcome.status == "finished");
+  CHECK(outcome.doubts.empty() == (share > 0.6));
+  CHECK(rig.has_event("doubt", "force_high") == (share < 0.6));
+}
+
+TEST_CASE("a creep test whose gain halves before it presses ends with that cause", "[rig][pty]") {
+  const FaultedRun run = run_with(rig_with("half-gain@baseline+0.5"), creep_plan(1.0));
+  INFO(run.said);
+  CHECK(run.outcome.status == "interrupted");
+  CHECK(run.outcome.phase == "ramp");
+  CHECK_THAT(run.said, Contains("gain of the load cell"));
+  CHECK(run.bench.peak_force_N < 2.0);
 }
 
 TEST_CASE("a load cell whose readings show no noise is not brought to the specimen unproven",
