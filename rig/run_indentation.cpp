@@ -145,8 +145,11 @@ class IndentationRun {
     watch_hold(phase);
     session.pump_until(end_s + std::min(kDepthAfter_s, phase.duration_s));
     note_depth(run_);
-    if (phase.duration_s > kSeenPeriods * session.load_cell().period_s()) check_last_move();
-    if (std::exchange(is_first_press_, false)) check_press(run_, depth_asked_m_);
+    const bool is_first_press = std::exchange(is_first_press_, false);
+    if (phase.duration_s > kSeenPeriods * session.load_cell().period_s()) {
+      check_last_move();
+      if (is_first_press) check_press(run_, depth_asked_m_);
+    }
     if (const auto due_s = unload_check_.due_after_s(); due_s && *due_s <= phase.duration_s) {
       session.pump_until(end_s + *due_s);
       unload_check_.judge();
@@ -158,6 +161,10 @@ class IndentationRun {
   void watch_hold(const TestPhase& phase) {
     RunSession& session = run_.session;
     if (session.stage().position_m() < run_.contact_m + kSamePlace_m) return;
+    // After an unloading it may have come off, and touch again as it recovers.
+    if (has_unloaded_ && session.sound_force_N(run_.outcome.noise_N) < 2.0 * zero_drift_N(run_)) {
+      return;
+    }
     const double rise_N = std::max(kRiseInHold * session.peak_force_N(), zero_drift_N(run_)) +
                           felt_difference_N(run_.outcome.noise_N, 1);
     session.watch_hold(phase.name, has_unloaded_ ? std::nullopt : std::optional(rise_N));

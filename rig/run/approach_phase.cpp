@@ -11,7 +11,8 @@
 namespace viscard {
 namespace {
 
-constexpr double kSettle_s = 0.25;      // force after a stop, long against the readings' period
+constexpr double kSettle_s = 0.25;  // force after a stop, long against the readings' period
+constexpr double kFiltered_s = 0.5, kSettlePeriods = 5.0;  // until filters and converters show it
 constexpr double kContactSigmas = 6.0;  // contact threshold over the noise of one reading
 constexpr double kStillThere = 0.25;    // of the threshold: below, it was a single bad reading
 constexpr int kMostBackOffs = 10;
@@ -319,12 +320,18 @@ void back_off(TestRun& run, double contact_m, double touched_N) {
   double to_m = contact_m - run.plan.gap_m;
   for (int i = 0; i < kMostBackOffs; ++i) {
     session.move(to_m, run.plan.retract_speed_m_s, "back off");
-    const ForceMean free = session.mean_force(kSettle_s);
+    ForceMean free = session.mean_force(kSettle_s);
+    const double free_N = kContactSigmas * run.outcome.noise_N / std::sqrt(free.n) + 1e-4 +
+                          0.2 * run.plan.contact_force_N;
+    if (std::abs(free.force_N) >= free_N) {  // or the converter or a filter still settles
+      session.pump_until(session.now_s() +
+                         std::max(kFiltered_s, kSettlePeriods * session.load_cell().period_s()));
+      free = session.mean_force(kSettle_s);
+    }
     still_N = free.force_N;
     const double rise_N = still_N - touched_N;
     if (rise_N > session.judged_N()) session.end_wrong_way(rise_N);
-    const double free_N = kContactSigmas * run.outcome.noise_N / std::sqrt(free.n) + 1e-4;
-    if (std::abs(free.force_N) < free_N + 0.2 * run.plan.contact_force_N) {
+    if (std::abs(free.force_N) < free_N) {
       run.contact_m = contact_m;
       run.outcome.contact_position_m = contact_m;
       session.set_contact_m(contact_m);
@@ -337,7 +344,7 @@ void back_off(TestRun& run, double contact_m, double touched_N) {
     to_m -= run.plan.gap_m;
     if (!knows_stiffness(run)) {
       contact_m -= run.plan.gap_m;
-    } else if (i == 0 && still_N > free_N + run.plan.contact_force_N) {
+    } else if (i == 0 && still_N > free_N + 0.8 * run.plan.contact_force_N) {
       doubt_play(run, still_N);
     }
   }

@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t kMedianOf = 8;  // readings: one or two garbled ones move it little
 constexpr double kTrend = 3.0;        // a jump is larger than so many times the change before it
-constexpr double kHoldSettles_s = 0.1;
 
 }  // namespace
 
@@ -30,7 +29,7 @@ double HoldWatch::median_N(std::size_t ago) const {
 }
 
 std::optional<HoldWatch::Change> HoldWatch::take(double force_N, double made_at_s) {
-  if (!limits_ || made_at_s < limits_->from_s + kHoldSettles_s) return std::nullopt;
+  if (!limits_ || made_at_s < limits_->from_s + limits_->settles_s) return std::nullopt;
   force_N_.push_back(force_N);
   if (force_N_.size() > 3 * kMedianOf) force_N_.pop_front();
   if (force_N_.size() < kMedianOf) return std::nullopt;

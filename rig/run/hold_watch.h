@@ -15,6 +15,7 @@ class HoldWatch {
     double jump_N = 0.0;  // smallest jump that counts
     // Smallest rise that counts; nothing after an unloading, which lets the force rise.
     std::optional<double> rise_N;
+    double settles_s = 0.1;  // so much later than from_s the readings show it
   };
   struct Change {
     bool is_jump = false;  // otherwise a rise over a longer time

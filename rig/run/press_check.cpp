@@ -26,15 +26,19 @@ const char* const kCauses =
 
 }  // namespace
 
-void check_zero(const TestRun& run, const ForceMean& zero) {
+void check_zero(TestRun& run, const ForceMean& zero) {
   const double allowed_N = zero_drift_N(run) + felt_difference_N(run.outcome.noise_N, zero.n);
   if (std::abs(zero.force_N) <= allowed_N) return;
+  const bool may_press = zero.force_N > 0.0;
+  run.is_place_doubtful = run.is_place_doubtful || may_press;
   throw RigError("the zero jumped by " + text_from_number(zero.force_N, 3) +
                  " N at rest, between the tare and the press, where at most " +
                  text_from_number(allowed_N, 3) +
                  " N is drift: the amplifier changed its zero, an open wire of the load cell "
-                 "drifts, or something touched the cell. Nothing was pressed on a zero that is "
-                 "not known. Check them with: viscard rig check");
+                 "drifts, or something touched the cell" +
+                 (may_press ? ", or the axis sinks and THE PUNCH MAY PRESS: look at it"
+                            : "; nothing was pressed on a zero that is not known") +
+                 ". Check the cell with: viscard rig check");
 }
 
 double longest_way_m(const TestRun& run, double force_N) {
@@ -66,8 +70,10 @@ void check_press(TestRun& run, double depth_m) {
     // Of the deformation of the frame that the touch implies, what the specimen has got instead.
     const double implied_m = run.contact_N_m * way_m / frame_N_m;
     const double deeper_m = implied_m - session.sound_force_N(run.outcome.noise_N) / frame_N_m;
-    const double most_m = kDepthMissed * depth_m + run.specimen.relaxation_guess * implied_m;
-    if (deeper_m > most_m || deeper_m < -kDepthMissed * depth_m) {
+    const double least_m = kDepthMissed * depth_m + 2.0 * run.contact_u * implied_m +
+                           kContactKnown_m * run.contact_N_m / frame_N_m;
+    const double most_m = least_m + run.specimen.relaxation_guess * implied_m;
+    if (deeper_m > most_m || deeper_m < -least_m) {
       what = "the depth reached is " + text_from_number(live_depth_m(run) * 1e6, 1) + " um, " +
              text_from_number(std::abs(deeper_m) * 1e6, 1) +
              (deeper_m > 0.0 ? " um more" : " um less") +

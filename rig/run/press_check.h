@@ -8,7 +8,7 @@ namespace viscard {
 
 // Before it: the force at rest must still be the tare, within what a cell drifts. zero: the mean at the
 // end of the baseline. Throws RigError if the zero has jumped.
-void check_zero(const TestRun& run, const ForceMean& zero);
+void check_zero(TestRun& run, const ForceMean& zero);
 
 // Way of the stage from the contact for that force, by the stiffness of the touch, and by more if
 // the specimen relaxes as relaxation_guess says. Infinite if the touch has not shown its stiffness

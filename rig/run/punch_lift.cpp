@@ -26,8 +26,10 @@ constexpr const char* kStoppedEarly = "the lift was stopped before its end";
 
 std::string wrong_way_text(double rise_N) {
   return "the force rises by " + text_from_number(rise_N * 1e3, 1) +
-         " mN: the stage moves toward the specimen when it shall move away: check the direction "
-         "(DIR) wire, its driver and toward_specimen; THE PUNCH PRESSES: lift it by hand";
+         " mN while the stage moves away by its count: THE PUNCH MAY PRESS, look at it and lift it "
+         "by hand. Either the stage moves toward the specimen (check the direction (DIR) wire, its "
+         "driver and toward_specimen), or the load cell shows a force that is none (a wire, its "
+         "zero, a touch)";
 }
 
 SafeEnd PunchLift::carry_out() {
@@ -121,8 +123,13 @@ std::string PunchLift::watch(double before_N, double deadline_s) {
       devices.stop_hard();
       return "THE LOAD CELL SHOWS NO NEW FORCE while the punch is lifted: lift it by hand";
     }
-    if (std::abs(now_N) > before_N + options.pressing_N) {
-      return stopped_as_wrong(std::abs(now_N) - before_N);
+    if (now_N > before_N + options.pressing_N) return stopped_as_wrong(now_N - before_N);
+    if (now_N < -before_N - options.pressing_N) {
+      is_force_left = true;
+      devices.stop_hard();
+      return "the specimen pulls at the punch with " + text_from_number(-now_N, 3) +
+             " N, or toward_specimen or compression_is_positive of the rig file is wrong: lift it "
+             "by hand";
     }
     if (is_stopping || !is_stop_asked()) continue;
     stage.stop_soft();
@@ -154,7 +161,9 @@ std::string PunchLift::lift(double share) {
         was_moving ? press_seen_after_s(devices.load_cell().period_s(), clock.from_wall_s(1.0))
                    : 0.0;
     // A move away that a limit has ended goes on here, and may have shown already where it goes.
-    readings.watch_rise({.from_s = clock.now_s() + seen_s, .goes_on = readings.is_rise_open()});
+    readings.watch_rise({.from_s = std::max(clock.now_s() + seen_s, options.pressed_until_s),
+                         .least_N = options.least_start_N,
+                         .goes_on = readings.is_rise_open()});
     if (rises()) return stopped_as_wrong(readings.rise_N());
     stage.begin_move(to_m, speed_m_s, "retract");
     const double deadline_s = clock.awake_s() + kStandstill_wall_s + (from_m - to_m) / speed_m_s;

@@ -42,6 +42,8 @@ struct PunchLift {
         false;  // the touch has shown that a punch that presses makes a positive force
     // A force that rises by more stops every lift at once, unless no reading shows it.
     double most_rise_N = 0.0;
+    double pressed_until_s = 0.0;  // readings made until then show the press before
+    double least_start_N = 0.0;    // what the press before may still show
   };
   ServedDevices& devices;
   ForceReadings& readings;

@@ -31,7 +31,9 @@ void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
 
 void doubt_high_force(RunSession& session, RunOutcome& outcome) {
   const double expected_N = outcome.expected.peak_force_N;
-  if (outcome.status != "finished" || outcome.peak_force_N <= kHighForce * expected_N) return;
+  if (outcome.status != "finished" ||
+      outcome.peak_force_N <= kHighForce * expected_N + 6.0 * outcome.noise_N)
+    return;
   outcome.doubts.push_back("the force reached " + text_from_number(outcome.peak_force_N, 3) +
                            " N, where at most " + text_from_number(expected_N, 3) +
                            " N was expected. Are punch_diameter and layer_thickness right, or is "

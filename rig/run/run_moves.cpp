@@ -151,11 +151,13 @@ void RunSession::move_once(double to_m, double speed_m_s, const std::string& pur
   const bool is_away = to_m < stage().position_m();
   if (is_away) {
     // Before the tare of a test the punch may have pulled.
-    const double least_N = purpose == kByHand ? std::max(0.0, -readings_.tare_N()) : 0.0;
+    const double least_N =
+        std::max(least_start_N(), purpose == kByHand ? -readings_.tare_N() : 0.0);
     readings_.watch_rise(
         {std::max(clock_.now_s(), pressed_until_s_), least_N, purpose == away_purpose_});
   } else {
     readings_.forget_rise();
+    press_ended_s_ = std::numeric_limits<double>::infinity();
   }
   away_purpose_ = is_away ? purpose : "";
   hold_.end();
@@ -174,6 +176,7 @@ void RunSession::move_once(double to_m, double speed_m_s, const std::string& pur
   if (is_away) {
     readings_.end_rise(clock_.now_s());
   } else {
+    press_ended_s_ = clock_.now_s();
     pressed_until_s_ =
         clock_.now_s() + press_seen_after_s(load_cell().period_s(), clock_.from_wall_s(1.0));
   }

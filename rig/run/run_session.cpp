@@ -184,7 +184,7 @@ void RunSession::act_on(GuardAction action, double force_N) {
 
 // The advice depends on how far the run has come. At this point it is not known whether the punch
 // can be lifted.
-void RunSession::throw_limit(GuardAction action, double force_N) const {
+void RunSession::throw_limit(GuardAction action, double force_N) {
   const bool is_hard = action == GuardAction::kHardStop;
   if (is_hard && is_doubtful_) {
     throw LimitReached(
@@ -196,6 +196,7 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
   const double before_N = readings_.earlier_N();
   const double jump_N = std::abs(force_N) - std::abs(before_N);
   if (has_moved_ && late.empty() && jump_N > kJumpShare * rig_.calibration.capacity_N) {
+    blind_ = "is not to be trusted";
     throw LimitReached("the force jumped from " + force_text(before_N) + " to " +
                        force_text(force_N) +
                        " within one reading, which no stage can press so fast: a wire of the load "
@@ -304,14 +305,22 @@ SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s,
   hold_.end();
   // A stop that has ended the run does not end its lift.
   const bool can_stop = !has_moved_ && control_.stop != nullptr && !*control_.stop;
-  PunchLift lift{
-      devices_,
-      readings_,
-      clock_,
-      [this] { pump(); },
-      {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N(), blind_, noise_N_,
-       zero_drift_N, !has_moved_, can_stop ? control_.stop : nullptr, follow_.stiffness_N_m > 0.0,
-       is_wild_ ? std::numeric_limits<double>::infinity() : most_rise_N()}};
+  PunchLift lift{devices_,
+                 readings_,
+                 clock_,
+                 [this] { pump(); },
+                 {.retract_to_m = retract_to_m,
+                  .speed_m_s = speed_m_s,
+                  .pressing_N = kPressingShare * guard_.soft_limit_N(),
+                  .blind = blind_,
+                  .noise_N = noise_N_,
+                  .zero_drift_N = zero_drift_N,
+                  .watches = !has_moved_,
+                  .stop = can_stop ? control_.stop : nullptr,
+                  .knows_sign = follow_.stiffness_N_m > 0.0,
+                  .most_rise_N = is_wild_ ? std::numeric_limits<double>::infinity() : most_rise_N(),
+                  .pressed_until_s = pressed_until_s_,
+                  .least_start_N = least_start_N()}};
   return lift.carry_out();
 }
 

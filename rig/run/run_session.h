@@ -153,7 +153,7 @@ class RunSession {
   void act_on(GuardAction action, double force_N);
   void stop_hard_while_stopping(double force_N);
   void stop_at_once();
-  [[noreturn]] void throw_limit(GuardAction action, double force_N) const;
+  [[noreturn]] void throw_limit(GuardAction action, double force_N);
   void check_stream();
   void check_age();
   void check_lateness();
@@ -167,6 +167,7 @@ class RunSession {
   void judge_press(double position_m);
   void judge_rise(double position_m);
   double age_s() const;
+  double least_start_N();
   [[noreturn]] void throw_too_old(const std::string& what) const;
   void press(double to_m, double speed_m_s, const std::string& purpose,
              std::optional<double> stop_above_N);
@@ -211,6 +212,7 @@ class RunSession {
   RiseWatch rise_;
   std::string away_purpose_;      // of the last move, if it went away from the specimen
   double pressed_until_s_ = 0.0;  // when the force of the last press is known
+  double press_ended_s_ = -std::numeric_limits<double>::infinity();
   HoldWatch hold_;
   std::string held_phase_;
   bool has_hold_changed_ = false;

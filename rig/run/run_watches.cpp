@@ -102,7 +102,11 @@ void RunSession::end_blind(LifeWatch::Trouble trouble) {
 
 void RunSession::watch_hold(const std::string& phase, std::optional<double> rise_N) {
   held_phase_ = phase;
-  hold_.begin({clock_.now_s(), judged_N(), rise_N});
+  constexpr double kFiltered_s = 0.6, kFilteredPeriods = 5.0;
+  hold_.begin({.from_s = clock_.now_s(),
+               .jump_N = judged_N(),
+               .rise_N = rise_N,
+               .settles_s = std::max(kFiltered_s, kFilteredPeriods * load_cell().period_s())});
 }
 
 void RunSession::take_hold(double force_N, double made_at_s) {
@@ -148,6 +152,14 @@ double RunSession::judged_N() const {
 
 double RunSession::most_rise_N() const {
   return std::max(kRiseShare * guard_.soft_limit_N(), judged_N());
+}
+
+// A cell that filters or delays its readings still shows the rise of a press that has just ended. The touch implies
+// how far that can go: a specimen that relaxes bears less.
+double RunSession::least_start_N() {
+  constexpr double kFiltered_s = 1.0;
+  if (clock_.now_s() > press_ended_s_ + kFiltered_s) return 0.0;
+  return std::max(0.0, implied_N(follow_.contact_m, stage().position_m()));
 }
 
 void RunSession::end_wrong_way(double rise_N) {

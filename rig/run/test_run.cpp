@@ -55,13 +55,15 @@ bool check_lifted(TestRun& run, double before_N, LiftEnd when) {
       text_from_number((run.contact_m - session.stage().position_m()) * 1e3, 3) +
       " mm above the contact";
   // A punch that presses makes no negative force.
-  if (rest_N > kHardlyFallen * std::abs(before_N)) {
+  const double hardly_N =
+      std::max(kHardlyFallen * std::abs(before_N), is_now ? 0.0 : session.most_rise_N());
+  if (rest_N > hardly_N) {
     run.is_place_doubtful = true;
     throw PunchNotFree("THE PUNCH MAY STILL PRESS: " + text + place + ". Lift it by hand. Either " +
                        (is_now ? "the motor does not turn (supply, cable, enable input of its "
                                  "driver), or the load cell does not measure"
                                : "the axis sinks (its weight, a motor without a holding current), "
-                                 "or the zero of the load cell has jumped"));
+                                 "something touched the cell, or its zero has jumped"));
   }
   run.outcome.doubts.insert(
       run.outcome.doubts.begin(),

@@ -11,6 +11,7 @@ namespace {
 constexpr double kContactError = 0.025;  // of the peak: the contact is known to some um
 constexpr double kStillRelaxing = 0.3;   // of what has relaxed in the hold, until judge()
 constexpr double kSeen_s = 0.5;
+constexpr double kSeenPeriods = 5.0;
 constexpr double kLeastPlay_m = 5e-6;
 constexpr double kFewestStepsOfPlay = 4.0;  // of the motor
 
@@ -25,6 +26,7 @@ void UnloadCheck::take_move(double from_m, double force_before_N, double took_s)
     const bool is_first = !press_ && from_m <= run_.contact_m;
     press_ = is_first ? std::optional(Press{to_m - run_.contact_m, session.peak_force_N(), took_s})
                       : std::optional(Press{});
+    press_->ended_s = session.now_s();
     return;
   }
   if (!press_ || !(press_->way_m > 0.0) || to_m <= run_.contact_m) return;
@@ -32,7 +34,10 @@ void UnloadCheck::take_move(double from_m, double force_before_N, double took_s)
   press_->peak_N = std::max(press_->peak_N, session.peak_force_N());
   unloaded_m_ = from_m - to_m;
   relaxed_N_ = std::max(0.0, press_->peak_N - force_before_N);
-  before_N_ = force_before_N;
+  // Of an unloading that follows at once the newest reading shows less than the force at its beginning.
+  const double held_s = session.now_s() - took_s - press_->ended_s;
+  const bool is_seen = held_s > kSeenPeriods * session.load_cell().period_s();
+  before_N_ = is_seen ? force_before_N : std::max(force_before_N, press_->peak_N);
   least_N_ = force_before_N - unloaded_m_ / press_->way_m * press_->peak_N;
 }
 
@@ -74,7 +79,7 @@ void UnloadCheck::judge_play(double force_N) {
   const double stiffness_N_m = before_N_ / press_->way_m;
   const double contact_N = knows_stiffness(run_) ? 0.0 : kContactError * press_->peak_N;
   const double slack_N = stiffness_N_m * std::max(kLeastPlay_m, kFewestStepsOfPlay * step_m) +
-                         contact_N + 6.0 * run_.outcome.noise_N;
+                         contact_N + zero_drift_N(run_) + 6.0 * run_.outcome.noise_N;
   if (!(most_N > 0.0) || force_N <= most_N + slack_N) return;
   run_.outcome.doubts.push_back(
       "lost motion on reversal of some " +

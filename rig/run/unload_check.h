@@ -33,7 +33,7 @@ class UnloadCheck {
   void judge_play(double force_N);
 
   struct Press {
-    double way_m = 0.0, peak_N = 0.0, took_s = 0.0;
+    double way_m = 0.0, peak_N = 0.0, took_s = 0.0, ended_s = 0.0;
   };
   TestRun& run_;
   std::optional<Press> press_;  // the first one, from the contact

@@ -145,7 +145,7 @@ void MarlinStage::require_true_reports(const Pump& pump) {
     reports = reports_of_move(from - forth, speed_m_s, pump);
     reports_of_move(from, speed_m_s, pump);
     if (reports == Reports::kNotMoved && config_.home) {
-      const long long little = std::clamp(forth, -most / 3, most / 3);
+      const long long little = forth > 0 ? most / 3 : -most / 3;
       reports = reports_of_move(from + little, speed_m_s, pump);  // and stays there: the next
       if (reports == Reports::kTrue) return;  // command has a way from its end then
       reports_of_move(from, speed_m_s, pump);

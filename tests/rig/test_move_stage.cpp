@@ -117,8 +117,8 @@ TEST_CASE("a lift from a force above the limit that goes toward the specimen is 
   RunControl control;
   control.clock = &rig.clock;
   CHECK_THROWS_WITH(move_stage(stage, rig.load_cell, rig.config, rig.sink, control, jog(-1e-3)),
-                    Contains("moves toward the specimen when it shall move away") &&
-                        Contains("THE PUNCH PRESSES") && !Contains("lifted to"));
+                    Contains("the stage moves toward the specimen") &&
+                        Contains("THE PUNCH MAY PRESS") && !Contains("lifted to"));
   for (const double until_s = rig.clock.now_s() + 1.0; rig.clock.now_s() < until_s;) {
     wait_readable({&rig.stage_line}, rig.clock, 0.002);
     rig.stage_line.read_available();
@@ -217,6 +217,7 @@ TEST_CASE("a refused move that has unlocked a stage which is not homed warns, to
 TEST_CASE("a homing that a person or a force ends is no move that has not begun", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();
   options.grbl.is_homing_enabled = true;
+  options.config.stage.home = true;
   RigFixture rig(options);
   StageOrder home;
   home.is_home = true;

@@ -62,6 +62,13 @@ std::vector<std::string> names_of(RigFaultKind kind) {
       return {"is gone", "port"};
     case kStageStall:
       return {"stood still"};
+    case kDirectionStuck:
+      return {"direction"};
+    case kPlay:
+      return {"lost motion"};
+    case kNoExcitation:
+    case kHalfGain:
+    case kSinks:
     case kNone:
       break;
   }

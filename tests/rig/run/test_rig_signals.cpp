@@ -185,7 +185,7 @@ TEST_CASE("a stage whose direction sticks presses once, and nothing lifts it any
   INFO(phase << ": " << run.said << " " << run.bench.peak_force_N);
   // An unloading by 4 mm/s passes the force limit within one reading.
   CHECK(run.outcome.code == (phase == "hold" ? "force-limit" : "wrong-way"));
-  CHECK_THAT(run.said, Contains("direction (DIR) wire") && Contains("THE PUNCH PRESSES") &&
+  CHECK_THAT(run.said, Contains("direction (DIR) wire") && Contains("THE PUNCH MAY PRESS") &&
                            Contains("by its count, which is in doubt") &&
                            !Contains("motor does not turn") && !Contains("FALL"));
   CHECK(run.bench.peak_force_N < demo_rig().calibration.capacity_N);
@@ -213,7 +213,7 @@ TEST_CASE("the lift after an interruption is stopped when it presses", "[rig][pt
   const RunOutcome outcome = rig.run(short_plan());
   INFO(outcome.reason);
   CHECK(outcome.code == "interrupted");
-  CHECK_THAT(outcome.reason, Contains("direction (DIR) wire") && Contains("THE PUNCH PRESSES") &&
+  CHECK_THAT(outcome.reason, Contains("direction (DIR) wire") && Contains("THE PUNCH MAY PRESS") &&
                                  !Contains("lifted by"));
   CHECK(rig.emulated.outcome().peak_force_N < demo_rig().calibration.capacity_N);
 }
