@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <optional>
 #include <utility>
 
 namespace viscard {
@@ -70,14 +71,17 @@ RecordSink told_to(EmulatedRig* emulated, RecordSink sink) {
 RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, EmulatedRig* emulated,
                         const CaptureRequest& request, const CaptureWatch& watch) {
   const CaptureSetup& setup = request.setup;
+  // No file is made before the ports are open, and drivers say their last words into it.
+  std::optional<PreviousCapture> kept;
+  std::optional<CaptureWriter> written;
   RigDevices devices = open_ports(rig, clock);
   CaptureOptions options;
   options.overwrite = request.overwrite;
   if (request.overwrite) refuse_input(request.path);
-  PreviousCapture previous(request.path, request.overwrite);
+  PreviousCapture& previous = kept.emplace(request.path, request.overwrite);
   options.rights = previous.rights();
   note_output(request.path);
-  CaptureWriter writer(request.path, about_run(request, rig), options);
+  CaptureWriter& writer = written.emplace(request.path, about_run(request, rig), options);
   if (setup.truth) {
     std::filesystem::path path = request.path;
     write_file(path.replace_extension(kTruthEnding), json_from_truth(*setup.truth), true);
