@@ -227,7 +227,7 @@ TEST_CASE("answers of a study cannot be kept in a folder, in no folder or in ano
   CHECK(error_with(folder).find("is a folder; name a file in it, such as ") != std::string::npos);
   CHECK(error_with(folder + "/none/x").find("there is no folder '" + folder + "/none'") !=
         std::string::npos);
-  const std::string table = files.scene.beside("table.csv");
+  const std::string table = files.scene.beside("table.txt");
   write_file(table, "time_s,force_N\n0,1\n", false);
   CHECK(error_with(table).find("is not an SQLite database") != std::string::npos);
 }
