@@ -21,7 +21,7 @@ struct StageConfig {
   char axis = 'Z';
   int toward_specimen = -1;  // sign of machine motion that presses into the specimen
   double travel_m = 10e-3;   // largest travel toward the specimen from the position at connection
-  double backlash_m = 0.0;  // a note of the file: a warning, no effect
+  double backlash_m = 0.0;   // a note of the file: a warning, no effect
   // Standard uncertainty of the depth that an open-loop stage counts, relative: pitch of the screw,
   // and steps that the motor lags or loses unnoticed. A rig file that does not state it gets
   // kScrewDepth_u; 0: the depth is exact.

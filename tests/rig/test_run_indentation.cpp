@@ -306,7 +306,8 @@ TEST_CASE("a contact that is stiffer than the stated frame names the frame", "[r
 TEST_CASE("a force above the limit names what the test calls its load", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options();
   RigFixture rig(options);
-  double weight_N = -1.0;  // grows in the hold: too slowly for an open wire, faster than a step back
+  double weight_N =
+      -1.0;  // grows in the hold: too slowly for an open wire, faster than a step back
   when_phase(rig, "creep", [&] { weight_N = 0.0; });
   rig.on_record = [&](const RunRecord& record) {
     if (weight_N < 0.0 || !std::holds_alternative<LoadSample>(record)) return;
