@@ -276,7 +276,7 @@ TEST_CASE("a capture that is given as another kind of test is refused with the w
 TEST_CASE("a capture with --force replaces captures and empty files, and nothing else",
           "[cli][capture][pty]") {
   const ScratchFolder folder;
-  const std::filesystem::path material = folder / "material.json", empty = folder / "empty.viscap",
+  const std::filesystem::path material = folder / "material", empty = folder / "empty.viscap",
                               misnamed = folder / "table.viscap";
   write_file(material, "{\"E0_Pa\": 1e6}\n", false);
   write_file(misnamed, "time_s,force_N\n0,1\n", false);
