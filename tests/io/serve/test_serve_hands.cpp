@@ -129,7 +129,7 @@ TEST_CASE("weights on the load cell make a record on the page", "[serve][pty]") 
   CHECK(rig.order("/api/weigh", {{"mass_kg", -1.0}, {"largest_kg", 0.2}}).status == 400);
   points[3]["mass_kg"] = 0.1;
   CHECK(contains(message_of(rig.order("/api/calibrate", {{"points", points}})),
-                 "do not lie on a line"));
+                 "Is a weight of one series wrong"));
   CHECK(rig.order("/api/calibrate", {{"points", {{{"mass_kg", 0.1}}}}}).status == 400);
   for (const double wrong : {-1.0, 1e300}) {
     points[3]["reading_se"] = wrong;
