@@ -14,7 +14,8 @@ struct Specimen {
   double mixing_ratio = 0.0;  // parts of base to one of curing agent; 0: not given
   PunchContact contact;
   double modulus_guess_Pa = 0.0;  // for pre-flight and the stage travel only, never for the fit
-  // Share of the force that relaxes within the test, for pre-flight only. PDMS: below 0.05.
+  // Share of the force that relaxes within the test, for pre-flight and for how soft a press may be beside the touch.
+  // PDMS: below 0.05.
   double relaxation_guess = 0.05;
   double rho_kg_m3 = 0.0;
   double temperature_C = 23.0;

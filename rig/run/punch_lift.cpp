@@ -28,8 +28,8 @@ std::string wrong_way_text(double rise_N) {
   return "the force rises by " + text_from_number(rise_N * 1e3, 1) +
          " mN while the stage moves away by its count: THE PUNCH MAY PRESS, look at it and lift it "
          "by hand. Either the stage moves toward the specimen (check the direction (DIR) wire, its "
-         "driver and toward_specimen), or the load cell shows a force that is none (a wire, its "
-         "zero, a touch)";
+         "driver and toward_specimen), or the load cell shows a force that is none (an open wire, "
+         "its zero, a touch)";
 }
 
 SafeEnd PunchLift::carry_out() {
