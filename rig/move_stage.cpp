@@ -103,7 +103,8 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
     const bool has_answered = control.has_answered || !rig.load_cell.answered_on.empty();
     if (is_toward && !moved.is_stopped_by_force && !has_answered) {
       moved.note += (moved.note.empty() ? "" : "; ") +
-                    std::string("the whole way is gone and no force was felt, but ") + kUnanswered;
+                    std::string("the stage went its whole way and no force was felt, but ") +
+                    kUnanswered;
     }
   } catch (const RigError& error) {
     const bool is_asked_for = dynamic_cast<const RunInterrupted*>(&error) != nullptr;
@@ -116,8 +117,7 @@ StageMoved move_stage(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
       if (is_asked_for && order.is_home && !session.is_stage_connected()) {
         throw RigError(
             "the homing was stopped: the stage is not homed and stands where it was stopped. Look "
-            "at "
-            "the punch, lift it with: viscard rig lift");
+            "at the punch, lift it with: viscard rig lift");
       }
       if (is_asked_for) throw RigError("the move was stopped before it began" + note);
       if (note.empty()) throw;

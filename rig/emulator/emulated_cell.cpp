@@ -15,6 +15,11 @@ EmulatedCell::EmulatedCell(const EmulatedTruth& truth, const LoadCellCalibration
 double EmulatedCell::sound_signal(double force_N, double time_s, std::int64_t index) {
   if (fault_ == RigFaultKind::kNoExcitation) force_N = 0.0;
   if (fault_ == RigFaultKind::kHalfGain) force_N *= 0.5;
+  constexpr double kFilter_s = 0.15;
+  const double passed = -std::expm1(-std::max(0.0, time_s - filtered_at_s_) / kFilter_s);
+  filtered_N_ += passed * (force_N - filtered_N_);
+  filtered_at_s_ = time_s;
+  if (fault_ == RigFaultKind::kFiltered) force_N = filtered_N_;
   const double step_N = force_N - turned_N_;
   if (step_N != 0.0) direction_ = step_N > 0.0 ? 1.0 : -1.0;
   turned_N_ = force_N;

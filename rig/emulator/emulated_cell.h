@@ -35,6 +35,7 @@ class EmulatedCell {
   double direction_ = 1.0;
   RigFaultKind fault_ = RigFaultKind::kNone;
   double last_ = 0.0;  // signal
+  double filtered_N_ = 0.0, filtered_at_s_ = 0.0;
   std::optional<double> drifts_from_s_;
   double drifts_from_ = 0.0;  // signal
 };

@@ -10,13 +10,14 @@
 namespace viscard {
 namespace {
 
-constexpr std::array<std::pair<RigFaultKind, const char*>, 18> kFaults{
+constexpr std::array<std::pair<RigFaultKind, const char*>, 19> kFaults{
     {{RigFaultKind::kFrozen, "frozen"},
      {RigFaultKind::kZeros, "zeros"},
      {RigFaultKind::kOpenWire, "open-wire"},
      {RigFaultKind::kDriftingWire, "drifting-wire"},
      {RigFaultKind::kNoExcitation, "no-excitation"},
      {RigFaultKind::kHalfGain, "half-gain"},
+     {RigFaultKind::kFiltered, "filtered"},
      {RigFaultKind::kSaturation, "saturation"},
      {RigFaultKind::kFastReadings, "fast-readings"},
      {RigFaultKind::kSlowReadings, "slow-readings"},

@@ -14,6 +14,7 @@ enum class RigFaultKind {
   kDriftingWire,    // noise and a drifting offset that no force moves
   kNoExcitation,    // noise about the zero, whatever presses
   kHalfGain,        // the amplifier halves its gain
+  kFiltered,        // the readings follow the force through a low pass of 0.15 s
   kSaturation,      // the amplifier clips at a quarter of the cell's full scale
   kFastReadings,    // three times as many readings per second
   kSlowReadings,    // 10 readings per second

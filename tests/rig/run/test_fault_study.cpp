@@ -68,6 +68,7 @@ std::vector<std::string> names_of(RigFaultKind kind) {
       return {"lost motion"};
     case kNoExcitation:
     case kHalfGain:
+    case kFiltered:
     case kSinks:
     case kNone:
       break;

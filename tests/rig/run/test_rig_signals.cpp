@@ -265,6 +265,39 @@ TEST_CASE("a zero that jumps between touch and ramp ends the run before it press
   CHECK(rig.emulated.outcome().peak_force_N < 0.3);
 }
 
+// Balances filter their readings, and converters settle over some of them.
+TEST_CASE(
+    "a cell whose filter is slow is not taken for a stage that goes the wrong way, nor for play",
+    "[rig][pty]") {
+  TestPlan plan = short_plan();
+  const std::string protocol = GENERATE(as<std::string>(), "ramp-hold", "levels", "cycles");
+  plan.protocol = protocol;
+  plan.levels = {{0.05e-3, 0.5, 0.0}, {0.1e-3, 0.5, 0.0}, {0.04e-3, 0.1, 1.0}};
+  const FaultedRun run = run_with(rig_with("filtered"), plan);
+  INFO(protocol << ": " << run.said);
+  CHECK(run.outcome.status == "finished");
+  CHECK_THAT(run.said, !Contains("moves away") && !Contains("lost motion") &&
+                           !Contains("no specimen does") && !Contains("softer than the touch"));
+}
+
+TEST_CASE("a press that a person ends is lifted though a slow filter still shows its rise",
+          "[rig][pty]") {
+  RigFixture rig(rig_with("filtered"));
+  rig.on_record = [&](const RunRecord& record) {
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (event == nullptr || event->name != "phase") return;
+    rig.emulated.enter_phase(event->value);
+    if (event->value == "hold") rig.stop = true;
+  };
+  TestPlan plan = short_plan();
+  plan.ramp_s = 0.3;
+  const RunOutcome outcome = rig.run(plan);
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("lifted by") && !Contains("MAY PRESS"));
+  CHECK(rig.emulated.outcome().final_position_m < 0.4e-3);  // the surface
+}
+
 TEST_CASE("a press that does not fit the touch, a force that goes in a hold, and play are doubts",
           "[rig][pty]") {
   const auto [fault, word] =
