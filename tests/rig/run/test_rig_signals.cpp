@@ -272,7 +272,7 @@ TEST_CASE(
   TestPlan plan = short_plan();
   const std::string protocol = GENERATE(as<std::string>(), "ramp-hold", "levels", "cycles");
   plan.protocol = protocol;
-  plan.cycles = {.count = 2, .depth_m = 0.1e-3, .ramp_s = 0.5};
+  plan.cycles = {.count = 2, .depth_m = 0.1e-3, .ramp_s = 0.5, .hold_s = 0.5, .rest_s = 1.0};
   plan.levels = {{0.05e-3, 0.5, 0.0}, {0.1e-3, 0.5, 0.0}, {0.04e-3, 0.1, 1.0}};
   const FaultedRun run = run_with(rig_with("filtered"), plan);
   INFO(protocol << ": " << run.said);
